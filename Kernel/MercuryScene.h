@@ -15,14 +15,18 @@
 #include "Kernel/Mercury/MercuryBonds.h"
 #include "Kernel/Mercury/MercuryBoundaries.h"
 #include "Kernel/Mercury/MercuryCG.h"
+#include "Kernel/Mercury/MercuryCopyBoundaries.h"
 #include "Kernel/Mercury/MercuryData.h"
+#include "Kernel/Mercury/MercuryDroplets.h"
 #include "Kernel/Mercury/MercuryFiles.h"
 #include "Kernel/Mercury/MercuryHelpers.h"
+#include "Kernel/Mercury/MercuryInsertionBoundaries.h"
 #include "Kernel/Mercury/MercuryInteractions.h"
 #include "Kernel/Mercury/MercuryLogger.h"
 #include "Kernel/Mercury/MercuryPSD.h"
 #include "Kernel/Mercury/MercuryPaths.h"
 #include "Kernel/Mercury/MercuryPlane.h"
+#include "Kernel/Mercury/MercuryRestart.h"
 #include "Kernel/Mercury/MercuryWalls.h"
 #include "Kernel/MercuryNames.h"
 
@@ -135,7 +139,12 @@ public:
 
     /// Goes on from the kernel's restart file of this name, for a scene that is set up as it was.
     void readRestartFile() { this->restartFrom(Run::restartFile()); }
-    void readRestartFile(const std::filesystem::path& file) { this->restartFrom(file); }
+    /// The same of a file; one of MercuryDPM's in text is a start: readMercuryRestart(). That is taken by
+    /// scenes of any species (Mercury3D).
+    void readRestartFile(const std::filesystem::path& file) {
+        if (!isMercuryRestart(file)) return this->restartFrom(file);
+        takeOver(readMercuryRestart(file), file);
+    }
     void writeRestartFile() { this->writeRestart(Run::restartFile()); }
     /// Adds the grains of a .data file, and takes its box: readMercuryData(). Their species must be there.
     void readDataFile(const std::filesystem::path& file);
@@ -155,6 +164,13 @@ public:
                getGravitationalEnergy();
     }
 
+    /// Whether a grain would overlap nothing that is there.
+    [[nodiscard]] bool checkParticleForInteraction(const SphericalParticle& grain) const {
+        return hasRoomFor(*this, grain);
+    }
+    /// The grains that stand for others at ThinPeriodicBoundary, AngledPeriodicBoundary and their like.
+    [[nodiscard]] const GrainCopies& getCopies() const { return copies; }
+
     /// A grain that is held altogether moves on this path (m, by the time in s), where it is put at once, or
     /// with this velocity (m/s). Contacts see the velocity with which it goes from step to step. Throw
     /// InputError for one that is not held.
@@ -166,6 +182,8 @@ public:
     }
 
 private:
+    void takeOver(const MercuryRestart& state, const std::filesystem::path& file);
+    void addGrainsOf(const std::vector<GrainRow>& rows);
     static void requireTwoOrThree(const char* what, int dimensions) {
         if (dimensions != 2 && dimensions != 3)
             throw InputError(
@@ -175,6 +193,9 @@ private:
     int systemDimensions = 3;
     MercuryPaths& paths = this->template addPart<MercuryPaths>();
     MercuryBonds& bonds = this->template addPart<MercuryBonds>();
+    MercuryInsertions& insertions = this->template addPart<MercuryInsertions>();
+    MercuryActions& actions = this->template addPart<MercuryActions>();
+    GrainCopies& copies = this->template addPart<GrainCopies>();
 
     std::shared_ptr<MercurySettings> settings = std::make_shared<MercurySettings>();
     MercuryDomain domain{*this};
@@ -187,7 +208,7 @@ public:
     MercuryNoFile interactionFile;  // restart files have the contacts
     MercuryRandom& random = settings->random;
     MercuryWallHandler wallHandler{Scene::wallHandler, domain, settings};
-    MercuryBoundaryHandler boundaryHandler{*this};
+    MercuryBoundaryHandler boundaryHandler{*this, {&copies, &insertions, &actions}};
     MercuryInteractionHandler interactionHandler{*this, settings, bonds};
     MercuryCGHandler cgHandler{*this};
 };
@@ -195,10 +216,40 @@ public:
 template <class... Types>
 void MercuryScene<Types...>::readDataFile(const std::filesystem::path& file) {
     const MercuryFrame frame = readMercuryData(file);
+    addGrainsOf(frame.grains);
+    setDomain(frame.lowest, frame.highest);
+}
+
+template <class... Types>
+void MercuryScene<Types...>::addGrainsOf(const std::vector<GrainRow>& rows) {
     std::vector<SphericalParticle> ofTypes(this->speciesHandler.getSize());
     for (std::size_t k = 0; k < ofTypes.size(); ++k) ofTypes[k].setSpecies(this->speciesHandler.getObject(k));
-    addGrains(this->particleHandler, frame.grains, ofTypes);
-    setDomain(frame.lowest, frame.highest);
+    addGrains(this->particleHandler, rows, ofTypes);
+}
+
+template <class... Types>
+void MercuryScene<Types...>::takeOver(const MercuryRestart& state, const std::filesystem::path& file) {
+    if constexpr (sizeof...(Types) > 0) {
+        static_cast<void>(state);
+        throw InputError(fmt::format(
+            "The restart file {} is one of MercuryDPM's, in text, with species of its own; take Mercury3D.",
+            file.string()));
+    } else {
+        for (const MercuryRestart::Species& one : state.species) {
+            auto* const species = this->speciesHandler.addByName(one.type);
+            for (const auto& [field, value] : one.fields) species->set(field, value);
+        }
+        setDomain(state.lowest, state.highest);
+        this->setGravity(state.gravity);
+        if (state.timeStep > 0) this->setTimeStep(state.timeStep);
+        this->setTimeMax(state.timeMax);
+        this->setSaveCount(state.saveCount);
+        if (!state.name.empty()) this->setName(state.name);
+        for (const MercuryRestart::Plane& plane : state.planes)
+            wallHandler.copyAndAddObject(
+                InfiniteWall(plane.normal, plane.point, this->speciesHandler.getObject(plane.species)));
+        addGrainsOf(state.grains);
+    }
 }
 
 /// Species of any types, as there.

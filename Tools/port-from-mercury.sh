@@ -26,6 +26,11 @@ port() {
         -e "s/Vec3D::cross\\($operand,[[:space:]]*$operand\\)/(\\1).cross(\\3)/g" \
         -e 's/([A-Za-z_.]*)speciesHandler\.addObject\(([A-Za-z_0-9]+)\)/\2 = \1speciesHandler.copyAndAddObject(*\2)/g' \
         -e 's/dynamic_cast<[^()]*\*>\((([A-Za-z_0-9]+(->|\.))*interactionHandler\.getInteraction\((.*)\))\)/\1/' \
+        -e 's/((\(\*[A-Za-z_0-9]+\)|[A-Za-z_0-9]+)((->|\.)[A-Za-z_0-9]+(\([^()]*\))?)*)\.isEqualTo\(/mathsFunc::isEqual(\1, /g' \
+        -e 's/\baddVelocity\(/accelerate(/g' \
+        -e 's/std::vector<BaseParticle[[:space:]]*\*>::(const_)?iterator/auto/g' \
+        -e 's/std::vector<BaseParticle[[:space:]]*\*>/std::vector<SphericalParticle*>/g' \
+        -e 's/\bnew BaseParticle\b/new SphericalParticle/g' \
         -e 's/\.getLengthSquared\(\)/.squaredNorm()/g' \
         -e 's/\.getLength\(\)/.norm()/g' \
         -e 's/\b(const )?(BaseParticle|BaseInteraction|BaseWall|BaseBoundary)[[:space:]]*\*[[:space:]]*/auto /g' \

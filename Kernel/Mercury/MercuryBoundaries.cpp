@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
+#include <utility>
 
 #include "Kernel/Base/InputError.h"
-#include "Kernel/Mercury/InletVelocities.h"
-#include "Kernel/Sizes/SizeTable.h"
-#include "Kernel/State/Random.h"
+#include "Kernel/State/StateArchive.h"
 
 namespace pendular {
 namespace {
@@ -22,8 +20,9 @@ Vec3D pointOfPlane(const char* boundary, const Vec3D& normal, double distance) {
 
 }  // namespace
 
-void MercuryBoundary::addTo(Scene& of) {
+void MercuryBoundary::addTo(Scene& of, const MercuryParts& with) {
     scene = &of;
+    parts = with;
     isHandedOver = false;
     handOverWhenSet();
 }
@@ -46,6 +45,12 @@ void MercuryBoundary::requireChangeable(const char* call) const {
             fmt::format("{}: {} comes too late, as the scene has the boundary already; call it "
                         "before the boundary is added.",
                         name, call));
+}
+
+void MercuryBoundary::stop() {
+    if (isHandedOver)
+        throw InputError(fmt::format(
+            "{}: it cannot be removed, as the scene has it for good; only insertion boundaries can.", name));
 }
 
 void MercuryBoundary::requireSet() const {
@@ -146,122 +151,57 @@ void FluxBoundary::set(const Vec3D& normal, double distance) {
     handOverWhenSet();
 }
 
-FluxCount FluxBoundary::count() const { return sceneThatHasIt().fluxPlaneHandler.countOf(number); }
+void FluxBoundary::handOver(Scene& of) { number = of.fluxPlaneHandler.copyAndAddObject(*plane); }
 
-void CubeInsertionBoundary::set(const SphericalParticle& like, unsigned maxFailed, const Vec3D& lowest,
-                                const Vec3D& highest, const Vec3D& lowestVelocity,
-                                const Vec3D& highestVelocity) {
-    requireChangeable("set()");
-    if ((lowestVelocity.array() > highestVelocity.array()).any())
+void FluxBoundary::setPrescribedDistance(std::function<double(double)> distance) {
+    if (prescribed || !isAdded())
         throw InputError(
-            fmt::format("CubeInsertionBoundary: the lowest velocity = ({}, {}, {}) m/s is above the highest, "
-                        "({}, {}, {}) "
-                        "m/s; no part of it may be.",
-                        lowestVelocity.x(), lowestVelocity.y(), lowestVelocity.z(), highestVelocity.x(),
-                        highestVelocity.y(), highestVelocity.z()));
-    lowVelocity = lowestVelocity, highVelocity = highestVelocity;
-    grain = like;
-    grain.setVelocity(lowestVelocity);
-    region.emplace(lowest, highest);
-    tries = maxFailed + 1;
-    handOverWhenSet();
+            "FluxBoundary: setPrescribedDistance() is called once, after the boundary was added.");
+    prescribed = std::move(distance);
+    actions().add(this);
 }
 
-void CubeInsertionBoundary::set(const SphericalParticle& like, unsigned maxFailed, const Vec3D& lowest,
-                                const Vec3D& highest, const Vec3D& lowestVelocity,
-                                const Vec3D& highestVelocity, double smallest, double largest) {
-    requireChangeable("set()");
-    SphericalParticle one = like;
-    one.setRadius(smallest);
-    if (smallest != largest) {
-        PSD even;
-        even.setDistributionUniform(smallest, largest);
-        setPSD(even);
-    }
-    set(one, maxFailed, lowest, highest, lowestVelocity, highestVelocity);
-}
-
-void CubeInsertionBoundary::setPSD(const PSD& distribution) {
-    requireChangeable("setPSD()");
-    sizes = distribution.sizes();
-}
-
-void CubeInsertionBoundary::setInitialVolume(double volume) {
-    requireChangeable("setInitialVolume()");
-    checkValue(name, "initial volume", volume, "m^3", notNegative);
-    initialVolume = volume;
-    handOverWhenSet();
-}
-
-void CubeInsertionBoundary::setVolumeFlowRate(double rate) {
-    requireChangeable("setVolumeFlowRate()");
-    checkValue(name, "volume flow rate", rate, "m^3/s", notNegative);
-    flow = rate;
-    handOverWhenSet();
-}
-
-SizeDistribution CubeInsertionBoundary::sizesOfGrains() const {
-    if (sizes) return *sizes;
-    checkValue("CubeInsertionBoundary", "radius of the grain", grain.getRadius(), "m", radiusRange);
-    return singleSizes(std::array{2 * grain.getRadius()}, std::array{1.0}, SizeBasis::Number);
-}
-
-void CubeInsertionBoundary::handOver(Scene& of) {
-    if (grain.getSpeciesIndex() < 0)
-        throw InputError(
-            "CubeInsertionBoundary: the grain has no species; call its setSpecies() before set().");
-    if (of.particleHandler.axesOfAllHeld().z)
-        throw InputError(
-            "CubeInsertionBoundary: in two dimensions (setSystemDimensions(2)) its grains would come at all "
-            "heights of the box; add grains at one z in setupInitialConditions() or a hook.");
-    const double density = of.particleHandler.massOf(1, grain.getSpeciesIndex()) / sphereMass(1, 1);
-    if (initialVolume > 0) insertAtOnce(of, density);
-    if (flow > 0 || !(initialVolume > 0)) addInlet(of, density);
-}
-
-void CubeInsertionBoundary::insertAtOnce(Scene& of, double density) {
-    const std::uint32_t first = of.particleHandler.store().nextIdentity();
-    atOnce = of.insert(sizesOfGrains(), *region, Amount::mass(initialVolume * density), grain);
-    if (lowVelocity == highVelocity) return;
-    UniformRandom random(first);
-    for (std::uint32_t identity = first; identity < of.particleHandler.store().nextIdentity(); ++identity) {
-        Vec3D velocity;
-        for (int axis = 0; axis < 3; ++axis)
-            velocity[axis] = random.uniform(lowVelocity[axis], highVelocity[axis]);
-        of.particleHandler.getObject(identity).setVelocity(velocity);
+void FluxBoundary::act(StepContext& step) {
+    const Vec3D normal = plane->normal;
+    const auto isBeyond = [&](const Vec3D& place, double time) {
+        return normal.dot(place) > prescribed(time);
+    };
+    for (const GrainReference grain : step.particles) {
+        const std::uint32_t identity = grain.getId();
+        // Where a grain was before its first step, it says itself.
+        const bool was = known.insert(identity).second
+                             ? isBeyond(grain.getPosition() - step.length * grain.getVelocity(), step.time)
+                             : beyond.contains(identity),
+                   is = isBeyond(grain.getPosition(), step.timeAfter);
+        if (is) beyond.insert(identity);
+        else beyond.erase(identity);
+        if (was == is) continue;
+        const double mass = step.particles.massOf(grain.getRadius(), grain.getSpeciesIndex());
+        if (is) ++own.forwards, own.massForwards += mass;
+        else ++own.backwards, own.massBackwards += mass;
     }
 }
 
-void CubeInsertionBoundary::addInlet(Scene& of, double density) {
-    Inlet stream;
-    stream.setRegion(*region);
-    stream.setSizes(sizesOfGrains());
-    stream.setGrain(grain);
-    stream.setTries(tries);
-    if (flow > 0) stream.setMassFlow(flow * density);
-    else {
-        // More than any box has room for in any step: what has none is lost.
-        stream.setNumberFlow(1e18);
-        stream.setNoRoom(NoRoom::Lost);
+void FluxBoundary::visitState(StateArchive& archive) {
+    for (auto [name, set] : {std::pair("beyond", &beyond), std::pair("known", &known)}) {
+        std::vector<std::uint32_t> identities(set->begin(), set->end());
+        archive.column<std::uint32_t>(name, identities);
+        *set = {identities.begin(), identities.end()};
     }
-    inlet = of.inletHandler.copyAndAddObject(stream);
-    if (lowVelocity != highVelocity)
-        of.addPart<InletVelocities>(of.inletHandler, *inlet, lowVelocity, highVelocity);
+    archive.value("forwards", own.forwards);
+    archive.value("backwards", own.backwards);
+    archive.finite("massForwards", own.massForwards);
+    archive.finite("massBackwards", own.massBackwards);
 }
 
-std::uint64_t CubeInsertionBoundary::getNumberOfParticlesInserted() const {
-    const Scene& in = sceneThatHasIt();
-    return atOnce.number + (inlet ? in.inletHandler.countOf(*inlet).number : 0);
+FluxCount FluxBoundary::count() const {
+    return prescribed ? own : sceneThatHasIt().fluxPlaneHandler.countOf(number);
 }
 
-double CubeInsertionBoundary::getMassOfParticlesInserted() const {
-    const Scene& in = sceneThatHasIt();
-    return atOnce.mass + (inlet ? in.inletHandler.countOf(*inlet).mass : 0);
-}
-
-double CubeInsertionBoundary::getVolumeOfParticlesInserted() const {
-    const auto species = static_cast<std::size_t>(grain.getSpeciesIndex());
-    return getMassOfParticlesInserted() / sceneThatHasIt().laws().density(species);
+void MercuryBoundaryHandler::removeObject(std::size_t number) {
+    getObject(number)->stop();
+    removed.push_back(std::move(all[number]));
+    all.erase(all.begin() + static_cast<std::ptrdiff_t>(number));
 }
 
 MercuryBoundary* MercuryBoundaryHandler::getObject(std::size_t number) const {

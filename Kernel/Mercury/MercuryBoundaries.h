@@ -4,10 +4,14 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
-#include "Kernel/Mercury/MercuryPSD.h"
+#include "Kernel/Mercury/MercuryActions.h"
+#include "Kernel/Mercury/MercuryInsertion.h"
+#include "Kernel/Parts/GrainCopies.h"
 #include "Kernel/Simulation/Scene.h"
 
 // MercuryDPM's boundaries, as far as the kernel has what they do: each is handed to it when it is both added
@@ -15,16 +19,25 @@
 
 namespace pendular {
 
+/// The parts of a MercuryScene's step that its boundaries work by.
+struct MercuryParts {
+    GrainCopies* copies;
+    MercuryInsertions* insertions;
+    MercuryActions* actions;
+};
+
 class MercuryBoundary {
 public:
     virtual ~MercuryBoundary() = default;
 
     /// Throws InputError for what the kernel refuses.
-    void addTo(Scene& of);
+    void addTo(Scene& of, const MercuryParts& with);
     /// Called at set-up, when the driver has set all that it will: hands over what does without more.
     void settle();
     /// Throws InputError for one that was added and not set.
     void requireSet() const;
+    /// It acts no more from now on. Throws InputError for one that the kernel keeps for good.
+    virtual void stop();
 
 protected:
     explicit MercuryBoundary(const char* ofName) : name(ofName) {}
@@ -41,11 +54,17 @@ protected:
     /// Whether it has a meaning as it is, though more may be set.
     [[nodiscard]] virtual bool isEnough() const { return isSet(); }
     virtual void handOver(Scene& of) = 0;
+    /// Of the scene that has it.
+    [[nodiscard]] GrainCopies& copies() const { return *parts.copies; }
+    [[nodiscard]] MercuryInsertions& insertions() const { return *parts.insertions; }
+    [[nodiscard]] MercuryActions& actions() const { return *parts.actions; }
+    [[nodiscard]] bool isAdded() const { return scene != nullptr; }
 
     const char* name;
 
 private:
     Scene* scene = nullptr;  // null before it is added
+    MercuryParts parts{};
     bool isHandedOver = false;
 };
 
@@ -118,11 +137,13 @@ public:
 };
 
 /// A plane that counts the grains that go through it.
-class FluxBoundary : public MercuryBoundary {
+class FluxBoundary : public MercuryBoundary, public ActsInSteps {
 public:
     FluxBoundary() : MercuryBoundary("FluxBoundary") {}
     /// @param normal of any length, of which the distance (m) is measured in
     void set(const Vec3D& normal, double distance);
+    /// The plane is at this distance at the time (s): grains that it passes count, too. At set-up.
+    void setPrescribedDistance(std::function<double(double)> distance);
     [[nodiscard]] std::uint64_t getNumberOfParticlesCrossedForw() const { return count().forwards; }
     [[nodiscard]] std::uint64_t getNumberOfParticlesCrossedBack() const { return count().backwards; }
     [[nodiscard]] std::int64_t getNumberOfParticlesCrossedNet() const { return count().net(); }
@@ -134,81 +155,52 @@ public:
     [[nodiscard]] double getVolumeOfParticlesCrossedBack() const { return volumeOf(count().massBackwards); }
     [[nodiscard]] double getVolumeOfParticlesCrossedNet() const { return volumeOf(count().netMass()); }
 
+    void act(StepContext& step) override;
+    void visitState(StateArchive& archive) override;
+
 private:
     [[nodiscard]] bool isSet() const override { return plane.has_value(); }
-    void handOver(Scene& of) override { number = of.fluxPlaneHandler.copyAndAddObject(*plane); }
+    void handOver(Scene& of) override;
     [[nodiscard]] FluxCount count() const;
     [[nodiscard]] double volumeOf(double mass) const;
 
     std::optional<FluxPlane> plane;
     std::size_t number = 0;
-};
-
-/// Grains that come into a box: a volume at once, by insert(), and then a volume each second, by an inlet.
-/// With neither, the box is filled again in each step: by an inlet whose flow is what has room.
-class CubeInsertionBoundary : public MercuryBoundary {
-public:
-    CubeInsertionBoundary() : MercuryBoundary("CubeInsertionBoundary") {}
-    /// @param like species, radius (without a PSD) and film of the grains
-    /// @param maxFailed random places that a grain is tried at in a step, less one
-    /// @param lowestVelocity m/s: each part is even between the bounds
-    void set(const SphericalParticle& like, unsigned maxFailed, const Vec3D& lowest, const Vec3D& highest,
-             const Vec3D& lowestVelocity = Vec3D::Zero(), const Vec3D& highestVelocity = Vec3D::Zero());
-    /// The same, with as many grains of each radius (m) between two.
-    void set(const SphericalParticle& like, unsigned maxFailed, const Vec3D& lowest, const Vec3D& highest,
-             const Vec3D& lowestVelocity, const Vec3D& highestVelocity, double smallest, double largest);
-    /// The same, with a pointer to the grain.
-    void set(const SphericalParticle* like, unsigned maxFailed, const Vec3D& lowest, const Vec3D& highest,
-             const Vec3D& lowestVelocity = Vec3D::Zero(), const Vec3D& highestVelocity = Vec3D::Zero()) {
-        set(*like, maxFailed, lowest, highest, lowestVelocity, highestVelocity);
-    }
-    void set(const SphericalParticle* like, unsigned maxFailed, const Vec3D& lowest, const Vec3D& highest,
-             const Vec3D& lowestVelocity, const Vec3D& highestVelocity, double smallest, double largest) {
-        set(*like, maxFailed, lowest, highest, lowestVelocity, highestVelocity, smallest, largest);
-    }
-    void setPSD(const PSD& distribution);
-    /// m^3, of the grains that come at once
-    void setInitialVolume(double volume);
-    /// m^3/s, of the grains that come while the scene runs
-    void setVolumeFlowRate(double rate);
-    [[nodiscard]] std::uint64_t getNumberOfParticlesInserted() const;
-    [[nodiscard]] double getMassOfParticlesInserted() const;    // kg
-    [[nodiscard]] double getVolumeOfParticlesInserted() const;  // m^3
-
-private:
-    /// It has a box and one of the two volumes.
-    [[nodiscard]] bool isSet() const override { return region && (initialVolume > 0 || flow > 0); }
-    void handOver(Scene& of) override;
-    [[nodiscard]] bool isEnough() const override { return region.has_value(); }
-    [[nodiscard]] SizeDistribution sizesOfGrains() const;
-    void insertAtOnce(Scene& of, double density);
-    void addInlet(Scene& of, double density);
-
-    SphericalParticle grain;
-    std::optional<BoxRegion> region;
-    std::optional<SizeDistribution> sizes;
-    Vec3D lowVelocity = Vec3D::Zero(), highVelocity = Vec3D::Zero();  // m/s
-    std::uint32_t tries = 1;
-    double initialVolume = 0, flow = 0;  // m^3, m^3/s
-    Inserted atOnce;
-    std::optional<std::size_t> inlet;
+    // Of a plane that moves, which the kernel's do not: what it has counted, and who was beyond it.
+    std::function<double(double)> prescribed;
+    FluxCount own;
+    std::set<std::uint32_t> beyond, known;
 };
 
 /// The boundaries of a MercuryScene.
 class MercuryBoundaryHandler {
 public:
-    explicit MercuryBoundaryHandler(Scene& ofScene) : scene(&ofScene) {}
+    MercuryBoundaryHandler(Scene& ofScene, const MercuryParts& ofParts) : scene(&ofScene), parts(ofParts) {}
     MercuryBoundaryHandler(const MercuryBoundaryHandler&) = delete;
 
     /// Adds a copy, and hands it to the kernel when it is set; the pointer stays valid.
     template <std::derived_from<MercuryBoundary> Boundary>
     Boundary* copyAndAddObject(const Boundary& boundary) {
         auto copy = std::make_unique<Boundary>(boundary);
-        copy->addTo(*scene);
         Boundary* const added = copy.get();
-        all.push_back(std::move(copy));
+        addObject(copy.release());
         return added;
     }
+    /// Takes the boundary itself, which was made by `new`.
+    template <std::derived_from<MercuryBoundary> Boundary>
+    void addObject(Boundary* boundary) {
+        std::unique_ptr<MercuryBoundary> own(boundary);
+        own->addTo(*scene, parts);
+        all.push_back(std::move(own));
+    }
+    /// Those behind it have a number less from then on, as there. Throws InputError for one that the kernel
+    /// keeps for good.
+    void removeObject(std::size_t number);
+    void clear() {
+        while (!all.empty()) removeObject(all.size() - 1);
+    }
+    /// Without effect: boundaries have no pictures.
+    void setWriteVTK(bool /*write*/) {}
     template <std::derived_from<MercuryBoundary> Boundary>
     Boundary* copyAndAddObject(const Boundary* boundary) {
         return copyAndAddObject(*boundary);
@@ -234,7 +226,9 @@ public:
 
 private:
     Scene* scene;
+    MercuryParts parts;
     std::vector<std::unique_ptr<MercuryBoundary>> all;
+    std::vector<std::unique_ptr<MercuryBoundary>> removed;  // drivers may still have pointers to them
 };
 
 }  // namespace pendular

@@ -220,6 +220,19 @@ public:
     /// Throw InputError if there is none.
     [[nodiscard]] MercuryCG* getObject(std::size_t number) const;
     [[nodiscard]] MercuryCG* getLastObject() const;
+    /// A loop over pointers: for (auto cg : cgHandler).
+    class Iterator {
+    public:
+        explicit Iterator(std::vector<std::unique_ptr<MercuryCG>>::const_iterator position) : at(position) {}
+        MercuryCG* operator*() const { return at->get(); }
+        Iterator& operator++() { return ++at, *this; }
+        friend bool operator==(const Iterator&, const Iterator&) = default;
+
+    private:
+        std::vector<std::unique_ptr<MercuryCG>>::const_iterator at;
+    };
+    [[nodiscard]] Iterator begin() const { return Iterator(all.begin()); }
+    [[nodiscard]] Iterator end() const { return Iterator(all.end()); }
     void sample() {
         for (const auto& one : all) one->sample(*scene);
     }

@@ -36,6 +36,16 @@ public:
     void setDistributionUniform(double lowest, double highest, int numberOfBins = 0);
     /// Normal in number, cut three standard deviations from the mean, as there.
     void setDistributionNormal(double mean, double deviation, int numberOfBins = 0);
+    /// The logarithm of the radius in metres is normal in number, cut three deviations from its mean, as
+    /// there.
+    void setDistributionLogNormal(double meanOfLogarithm, double deviationOfLogarithm, int numberOfBins = 0);
+    /// Normal in phi = -log2(1000 D) of the diameter D (m), by volume, cut six deviations from the mean; half
+    /// of the volume is in grains of a diameter up to D50 (m). Source: Krumbein, J. Sediment. Petrol. 4
+    /// (1934) 65.
+    void setDistributionPhiNormal(double d50, double deviationInPhi, int numberOfBins = 0);
+    static PSD getDistributionNormal(double mean, double deviation, int numberOfBins = 0);
+    static PSD getDistributionLogNormal(double meanOfLogarithm, double deviationOfLogarithm,
+                                        int numberOfBins = 0);
     /// The table has as many grains of each radius within a row, as there.
     void setParticleSizeDistribution(const std::vector<RadiusAndProbability>& table) {
         setPSDFromVector(table, TYPE::CUMULATIVE_NUMBER_DISTRIBUTION);
@@ -43,11 +53,18 @@ public:
     void setPSDFromVector(const std::vector<RadiusAndProbability>& table, TYPE type);
     /// A table in the form of readSizeTable(), whose first line says what its columns are.
     void setPSDFromCSV(const std::filesystem::path& file);
+    /// A table in MercuryDPM's form: rows "radius, probability", after one line of headings if there is one.
+    /// @param scale m for one unit of the radii
+    void setPSDFromCSV(const std::filesystem::path& file, TYPE type, bool headings = false, double scale = 1);
 
     [[nodiscard]] double getMinRadius() const { return 0.5 * sizes().smallest(); }
     [[nodiscard]] double getMaxRadius() const { return 0.5 * sizes().largest(); }
     /// m, of the sphere of the mean volume.
     [[nodiscard]] double getVolumetricMeanRadius() const { return 0.5 * sizes().mean(3, 0); }
+    /// The cumulative distribution in number, at a hundred radii and the largest one.
+    [[nodiscard]] std::vector<RadiusAndProbability> getParticleSizeDistribution() const;
+    /// m, the diameter up to which half of the volume is.
+    [[nodiscard]] double getVolumeD50() const { return sizes().quantile(SizeBasis::Volume, 0.5); }
     /// m, drawn by number, the same in each run.
     [[nodiscard]] double drawSample();
 
@@ -58,5 +75,8 @@ private:
     std::optional<SizeDistribution> distribution;
     UniformRandom random{0};
 };
+
+/// A row of a table of sizes under another of its names there.
+using DistributionElements = PSD::RadiusAndProbability;
 
 }  // namespace pendular

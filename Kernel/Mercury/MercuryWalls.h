@@ -2,11 +2,14 @@
 
 #include <filesystem>
 #include <functional>
+#include <iosfwd>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "Kernel/Mercury/MercuryDomain.h"
 #include "Kernel/Mercury/MercuryFiles.h"
+#include "Kernel/Mercury/MercuryMesh.h"
 #include "Kernel/Walls/AxisymmetricWall.h"
 #include "Kernel/Walls/IntersectionOfHalfSpaces.h"
 #include "Kernel/Walls/TriangleWall.h"
@@ -96,6 +99,25 @@ private:
     Vec3D axis{0, 0, 1};
 };
 
+/// A mesh from a file, as one wall.
+class TriangulatedWall {
+public:
+    template <class S>
+    TriangulatedWall(const std::filesystem::path& file, const S* of) {
+        wall.set(readMercuryMesh(file, 1));
+        wall.setSpecies(of);
+    }
+    bool getDistanceAndNormal(const SphericalParticle& grain, double& distance, Vec3D& normal) const {
+        return wall.getDistanceAndNormal(grain, distance, normal);
+    }
+    [[nodiscard]] const TriangleWall& getWall() const { return wall; }
+    /// Without effect.
+    void write(std::ostream& /*to*/) const {}
+
+private:
+    TriangleWall wall;
+};
+
 /// The walls of a MercuryScene, by pointers as in MercuryDPM. The forces on all of them are kept:
 /// wall->getForce().
 class MercuryWallHandler {
@@ -111,8 +133,17 @@ public:
     requires std::derived_from<Shape, Wall> Shape* copyAndAddObject(const Shape& wall) {
         return walls->copyAndAddObject(wall);
     }
+    TriangleWall* copyAndAddObject(const TriangulatedWall& mesh) {
+        return walls->copyAndAddObject(mesh.getWall());
+    }
+    /// A copy of what a pointer shows.
+    template <class Shape>
+    auto copyAndAddObject(const Shape* wall) {
+        return copyAndAddObject(*wall);
+    }
     template <class Other>
-    requires(!std::derived_from<Other, Wall>) void copyAndAddObject(const Other&) {
+    requires(!std::derived_from<Other, Wall> &&
+             !std::is_pointer_v<Other>) void copyAndAddObject(const Other&) {
         static_assert(std::derived_from<Other, Wall>,
                       "a wall is added to wallHandler, a boundary is added to boundaryHandler");
     }
@@ -122,13 +153,19 @@ public:
     AxisymmetricWall* copyAndAddObject(const AxisymmetricIntersectionOfWalls& solid) {
         return walls->copyAndAddObject(solid.inDomain(domain->getLowest(), domain->getHighest()));
     }
-    /// Adds a mesh from a file as one wall (there each triangle is one). Throws InputError.
-    /// @param scale m for one unit of the file
+    /// Adds a mesh from a file (STL, or VTK in its old text form) as one wall; there each triangle is one.
+    /// Throws InputError.
+    /// @param scale m for one unit of the file; @param shift m; @param velocity m/s; @param spin rad/s, about
+    /// the origin of the file after the shift
     template <class S>
-    TriangleWall* readTriangleWall(const std::filesystem::path& file, const S* of, double scale = 1) {
+    TriangleWall* readTriangleWall(const std::filesystem::path& file, const S* of, double scale = 1,
+                                   const Vec3D& shift = Vec3D::Zero(), const Vec3D& velocity = Vec3D::Zero(),
+                                   const Vec3D& spin = Vec3D::Zero()) {
         TriangleWall mesh;
-        mesh.read(file, scale);
+        mesh.set(readMercuryMesh(file, scale, shift));
         mesh.setSpecies(of);
+        if (velocity != Vec3D::Zero()) mesh.setVelocity(velocity);
+        if (spin != Vec3D::Zero()) mesh.setAngularVelocity(spin, shift);
         return walls->copyAndAddObject(mesh);
     }
     /// Throws InputError if there is no such wall, or if it is a membrane, which is none of MercuryDPM's.

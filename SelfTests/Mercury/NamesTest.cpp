@@ -106,7 +106,7 @@ TEST(MercuryNames, theScriptMakesTheMechanicalChanges) {
         EXPECT_EQ(result.exitCode, 0);
         return result.output;
     };
-    for (const auto& [there, here] : std::array<std::pair<const char*, const char*>, 9>{{
+    for (const auto& [there, here] : std::array<std::pair<const char*, const char*>, 13>{{
              {"double z = p->getPosition().Z + v[2].X;", "double z = p->getPosition().z() + v[2].x();"},
              {"// v.X stays in a comment", "// v.X stays in a comment"},
              {"Vec3D::dot(a, getMax()) * Vec3D::cross(b, c).getLength()",
@@ -115,11 +115,26 @@ TEST(MercuryNames, theScriptMakesTheMechanicalChanges) {
              {"BaseParticle p0; const BaseWall *w = f();", "SphericalParticle p0; auto w = f();"},
              {"s.XX - s.ZY", "s(0, 0) - s(2, 1)"},
              {"x.speciesHandler.addObject(own);", "own = x.speciesHandler.copyAndAddObject(*own);"},
+             {"if (!(*pIt)->getPosition().isEqualTo(goodPos, 1e-10))",
+              "if (!mathsFunc::isEqual((*pIt)->getPosition(), goodPos, 1e-10))"},
+             {"if (place.isEqualTo(other(1), e)) p->addVelocity(v);",
+              "if (mathsFunc::isEqual(place, other(1), e)) p->accelerate(v);"},
+             {"std::vector<BaseParticle*>::iterator pIt = all.begin();", "auto pIt = all.begin();"},
+             {"std::vector<BaseParticle*> all{new BaseParticle};",
+              "std::vector<SphericalParticle*> all{new SphericalParticle};"},
              {"setXMax(MIN.Xa, atX)", "setXMax(MIN.Xa, atX)"},
              {"auto i = dynamic_cast<BondedInteraction*>(interactionHandler.getInteraction(f(p), q, 0));",
               "auto i = interactionHandler.getInteraction(f(p), q, 0);"},
          }})
         EXPECT_EQ(ported(there), std::string(here) + '\n');
+}
+
+// Each row names tests that there are, and the page says what the table does.
+TEST(MercuryNames, theTableOfProgramsIsWhole) {
+    const support::ProgramResult result =
+        support::run("python3 " + (folders::source / "Tools/mercury-programs.py").string() + " --check 2>&1");
+    EXPECT_EQ(result.exitCode, 0) << result.output;
+    EXPECT_TRUE(contains(result.output, " of 175")) << result.output;
 }
 
 TEST(MercuryNames, helpersReadTheCommandLine) {

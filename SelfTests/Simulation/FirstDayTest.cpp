@@ -155,5 +155,52 @@ TEST(FirstDay, frictionThatIsNotSetIsOff) {
     EXPECT_TRUE(isOneSentence(said) && contains(said, "slidingStiffness is not set")) << said;
 }
 
+// One way to reach a grain: by a dot or by an arrow, also where it is const.
+TEST(FirstDay, aGrainIsReachedByDotOrArrow) {
+    OneSpecies scene;
+    scene.add({0, 0, 0}, scene.own);
+    GrainReference grain = scene.particleHandler.getObject(0);
+    const GrainReference same = grain;
+    grain->setVelocity({1, 2, 3});
+    EXPECT_EQ(grain.getVelocity(), Vec3D(1, 2, 3));
+    EXPECT_EQ(same->getVelocity(), same.getVelocity());
+    for (auto each : scene.particleHandler) each->setPosition({0, 0, 1});
+    EXPECT_EQ(same.getPosition(), Vec3D(0, 0, 1));
+}
+
+// A run that nobody has given an end is refused, and does not end at once with "no error".
+TEST(FirstDay, aRunWithoutAnEndIsRefused) {
+    OneSpecies scene;
+    scene.add({0, 0, 0}, scene.own);
+    scene.setQuiet();
+    const std::string said = refusal([&] { scene.solve(); });
+    EXPECT_TRUE(isOneSentence(said) && contains(said, "setTimeMax()")) << said;
+    EXPECT_EQ(scene.getNumberOfTimeSteps(), 0u);
+}
+
+// A grain may be put deeper into another one than at set-up, by a hook that says so.
+TEST(FirstDay, aHookMayPlaceAGrainDeeperKnowingly) {
+    struct Pressed : OneSpecies {
+        void actionsBeforeTimeStep() override {
+            if (getNumberOfTimeSteps() == 3) particleHandler.getObject(1).setPosition({1.8e-3, 0, 0});
+        }
+    };
+    for (const bool accepts : {false, true}) {
+        Pressed scene;
+        scene.add({0, 0, 0}, scene.own);
+        scene.add({0.01, 0, 0}, scene.own);
+        if (accepts) scene.acceptOverlaps(0.25);
+        scene.setTimeMax(1e-6), scene.setQuiet();
+        std::string said;
+        try {
+            scene.solve();
+        } catch (const RunError& error) {
+            said = error.what();
+        }
+        if (accepts) EXPECT_EQ(said, "");
+        else EXPECT_TRUE(contains(said, "acceptOverlaps()")) << said;
+    }
+}
+
 }  // namespace
 }  // namespace pendular::firstDayTest

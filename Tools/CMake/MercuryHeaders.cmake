@@ -8,6 +8,9 @@ function(pendular_write_mercury_headers folder)
         Walls/InfiniteWall Walls/IntersectionOfWalls Walls/AxisymmetricIntersectionOfWalls Walls/TriangleWall
         Boundaries/PeriodicBoundary Boundaries/CubeInsertionBoundary Boundaries/DeletionBoundary
         Boundaries/CubeDeletionBoundary Boundaries/FluxBoundary Boundaries/LeesEdwardsBoundary
+        Boundaries/SphereInsertionBoundary Boundaries/PolydisperseInsertionBoundary Boundaries/DropletBoundary
+        Boundaries/SubcriticalMaserBoundary Boundaries/ConstantMassFlowMaserBoundary
+        Boundaries/AngledPeriodicBoundary Boundaries/TimeDependentPeriodicBoundary Walls/TriangulatedWall
         CG/CG CG/TimeAveragedCG CG/Functions/Gauss CG/Functions/Lucy CG/Functions/Heaviside
         Species/Species Math/ExtendedMath Math/Helpers Math/PSD Math/RNG Math/Vector)
     foreach(normal IN ITEMS LinearViscoelastic LinearPlasticViscoelastic HertzianViscoelastic

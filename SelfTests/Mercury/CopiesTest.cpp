@@ -1,0 +1,446 @@
+// Programs of MercuryDPM's with boundaries that repeat a scene by copies of grains: masers, wedges, periods
+// that move and thin ones.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "Kernel/MercuryScene.h"
+#include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/TestFolder.h"
+
+namespace pendular::mercuryCopiesTest {
+namespace {
+
+using support::contains;
+using support::isOneSentence;
+using support::refusal;
+using support::TestFolder;
+
+using Scene1 = MercuryScene<LinearViscoelasticSlidingFrictionSpecies>;
+
+/// Grains of radius 1 and mass 1, of this stiffness (N/m), without friction.
+LinearViscoelasticSlidingFrictionSpecies* addSpecies(Scene1& scene, double radius, double stiffness) {
+    auto species = scene.speciesHandler.copyAndAddObject(LinearViscoelasticSlidingFrictionSpecies());
+    species->setDensity(1 / sphereMass(radius, 1));
+    species->setStiffness(stiffness);
+    scene.setQuiet();
+    return species;
+}
+
+GrainReference addGrain(Scene1& scene, double radius, const Vec3D& position, const Vec3D& velocity) {
+    SphericalParticle grain(scene.speciesHandler.getObject(0));
+    grain.setRadius(radius);
+    grain.setPosition(position);
+    grain.setVelocity(velocity);
+    return scene.particleHandler.copyAndAddObject(grain);
+}
+
+/// The grains that stand for themselves, by one coordinate.
+std::map<double, GrainReference> grainsAlong(Scene1& scene, int axis, double row) {
+    std::map<double, GrainReference> found;
+    for (const GrainReference grain : scene.particleHandler)
+        if (!scene.getCopies().isCopy(grain.getId()) && std::abs(grain.getPosition().z() - row) < 1e-9)
+            found.emplace(grain.getPosition()[axis], grain);
+    return found;
+}
+
+// Two grains on a smooth slope in a box that feeds a flow. Along the slope they fall freely, so that each
+// passage is known.
+TEST(MercuryPrograms, constantMassFlowMaserBoundaryMixedSpecies) {
+    MercuryScene<LinearViscoelasticSpecies> scene;
+    LinearViscoelasticSpecies species;
+    species.setDensity(6.0 / constants::pi);
+    species.setStiffness(2e5);
+    species.setDissipation(25);
+    scene.speciesHandler.copyAndAddObject(species);
+    auto species2 = scene.speciesHandler.copyAndAddObject(species);
+    species2->setStiffness(1e5);
+    scene.speciesHandler.getMixedObject(0, 1)->setStiffness(1.5e5);
+    scene.setTimeStep(species.getCollisionTime(1) / 50.0);
+    const double end = 4, angle = 24 * constants::degree;
+    scene.setTimeMax(end);
+    scene.setGravity({std::sin(angle), 0, -std::cos(angle)});
+    SphericalParticle p;
+    p.setRadius(0.5);
+    p.setVelocity({1, 0, 0});
+    for (int k = 0; k < 2; ++k) {
+        p.setSpecies(scene.speciesHandler.getObject(k));
+        p.setPosition({2.0 + 2 * k, 0, 1});
+        scene.particleHandler.copyAndAddObject(p);
+    }
+    InfiniteWall floor(Vec3D(0, 0, -1), Vec3D(0, 0, 0), scene.speciesHandler.getObject(0));
+    scene.wallHandler.copyAndAddObject(floor);
+    auto b0 = scene.boundaryHandler.copyAndAddObject(ConstantMassFlowMaserBoundary());
+    b0->set(Vec3D(1, 0, 0), 0, 5);
+    scene.setQuiet();
+    scene.solve();
+    EXPECT_EQ(b0->getGapSize(), 3);
+    EXPECT_TRUE(b0->isActivated());
+    // The box is at -3 to 2, the flow begins at 5.
+    std::multiset<double> expected, found;
+    const double t = scene.getTime(), way = t + 0.5 * std::sin(angle) * t * t;
+    int fed = 0;
+    for (const double start : {-1.0, 1.0}) {
+        double at = start + way;
+        for (; at > 2; at -= 5, ++fed) expected.insert(at + 3);
+        expected.insert(at);
+    }
+    for (const GrainReference grain : scene.particleHandler)
+        if (!scene.getCopies().isCopy(grain.getId())) found.insert(grain.getPosition().x());
+    ASSERT_EQ(found.size(), expected.size());
+    auto e = expected.begin();
+    for (const double x : found) EXPECT_NEAR(x, *e++, 1e-9);
+    EXPECT_EQ(fed, 3);
+    EXPECT_EQ(scene.getCopies().numberFed(), 3u);
+}
+
+/// The scene of SubcriticalMaserBoundarySelfTest: pairs in rows that do not meet.
+struct Rows : Scene1 {
+    explicit Rows(double end) {
+        auto species = addSpecies(*this, 1, 2e5);
+        species->setDissipation(2.5);
+        setTimeStep(species->getCollisionTime(1) / 50);
+        setTimeMax(end);
+        setMin(0, 0, 0), setMax(5, 2, 50);
+        for (const auto& [x, v, row] : {std::array{1.0, 1.0, 0.0},
+                                        {1, -1, 3},
+                                        {6, -1, 6},
+                                        {1, -1, 9},
+                                        {4, 0, 9},
+                                        {1, 0, 12},
+                                        {4, 1, 12},
+                                        {7, -1, 15},
+                                        {4.5, 0, 15},
+                                        {5.5, 0, 18},
+                                        {3, 1, 18},
+                                        {5.5, 0, 21},
+                                        {2, -1, 21}})
+            addGrain(*this, 1, {x, 0, row}, {v, 0, 0});
+        SubcriticalMaserBoundary* b0 = boundaryHandler.copyAndAddObject(SubcriticalMaserBoundary());
+        b0->set(Vec3D(1, 0, 0), 0, 5);
+    }
+    std::map<double, GrainReference> along(double row) { return grainsAlong(*this, 0, row); }
+};
+
+TEST(MercuryPrograms, subcriticalMaserBoundary) {
+    Rows early(0.9);
+    early.solve();
+    const double e = early.speciesHandler.getObject(0)->getRestitutionCoefficient(1);
+    EXPECT_GT(e, 0.9);
+    const auto speeds = [&](double row) {
+        std::vector<double> found;
+        for (const auto& [x, grain] : early.along(row)) found.push_back(grain.getVelocity().x());
+        return found;
+    };
+    // One in the box at the left bounces off what stands for the one at the right, which feels nothing of it.
+    auto row = speeds(9);
+    ASSERT_EQ(row.size(), 2u);
+    EXPECT_GT(row[0], 0.9);
+    EXPECT_EQ(row[1], 0);
+    // One at the right pushes the one at the left on, and keeps its speed: it goes off twice as fast.
+    row = speeds(12);
+    EXPECT_GT(row[0], 1.9);
+    EXPECT_EQ(row[1], 1);
+    // Box and flow push each other: equal masses change speeds.
+    row = speeds(15);
+    EXPECT_NEAR(row[0], -(1 + e) / 2, 1e-3);
+    EXPECT_NEAR(row[1], -(1 - e) / 2, 1e-3);
+    row = speeds(18);
+    EXPECT_NEAR(row[0], (1 - e) / 2, 1e-3);
+    EXPECT_NEAR(row[1], (1 + e) / 2, 1e-3);
+    // The left of the box does not push the flow.
+    row = speeds(21);
+    EXPECT_EQ(row[0], -1);
+    EXPECT_EQ(row[1], 0);
+
+    Rows late(5);
+    late.solve();
+    // Through the right face: one more, a box behind. To the left, or back from the flow: it goes on.
+    const auto places = [&](double r) {
+        std::vector<double> found;
+        for (const auto& [x, grain] : late.along(r)) found.push_back(x);
+        return found;
+    };
+    const double t = late.getTime();
+    ASSERT_EQ(places(0).size(), 2u);
+    EXPECT_NEAR(places(0)[0], 1 + t - 5, 1e-11);
+    EXPECT_NEAR(places(0)[1], 1 + t, 1e-11);
+    ASSERT_EQ(places(3).size(), 1u);
+    EXPECT_NEAR(places(3)[0], 1 - t, 1e-11);
+    ASSERT_EQ(places(6).size(), 1u);
+    EXPECT_NEAR(places(6)[0], 6 - t, 1e-11);
+}
+
+// A maser that opens in a run, whose right face is lower than the left one: the grains stay as fast as those
+// in the box, a step lower.
+TEST(MercuryPrograms, shiftingMaserBoundary) {
+    struct Shifting : Scene1 {
+        SubcriticalMaserBoundary* maser = nullptr;
+        void actionsAfterTimeStep() override {
+            if (maser || getTime() < 0.5) return;
+            maser = boundaryHandler.copyAndAddObject(SubcriticalMaserBoundary());
+            maser->set(Vec3D(1, 0, 0), Vec3D(0, -1, 0), 0, 1);
+            maser->activateMaser();
+        }
+    } scene;
+    addSpecies(scene, 0.08, 1000);
+    addGrain(scene, 0.08, {0.2, 0.5, 0}, {0.5, 0, 0});
+    scene.setTimeStep(1e-4);
+    scene.setTimeMax(4);
+    scene.solve();
+    const auto found = grainsAlong(scene, 0, 0);
+    // x = 2.2 without a maser: it has left the box at 1 after 1.6 s, and the one that came for it after 3.6
+    // s.
+    const double x = 0.2 + 0.5 * scene.getTime();
+    ASSERT_EQ(found.size(), 3u);
+    double y = 2.5;
+    for (const auto& [place, grain] : found) {
+        EXPECT_NEAR(place, x - (y - 0.5), 1e-9);
+        EXPECT_NEAR(grain.getPosition().y(), y, 1e-12);
+        y -= 1;
+    }
+    EXPECT_EQ(scene.getCopies().numberFed(), 2u);
+}
+
+// A grain goes round in a wedge of a quarter, and a pair that meets across its face does so as it does
+// inside.
+TEST(MercuryPrograms, angledPeriodicBoundary) {
+    const auto make = [](bool isWedge) {
+        auto scene = std::make_unique<Scene1>();
+        addSpecies(*scene, 0.5, 100);
+        scene->setTimeStep(1e-3);
+        scene->setTimeMax(3);
+        if (!isWedge) return scene;
+        AngledPeriodicBoundary b;
+        b.set(Vec3D(1, 0, 0), Vec3D(0, -1, 0), Vec3D(0, 0, 0));
+        scene->boundaryHandler.copyAndAddObject(b);
+        return scene;
+    };
+    const auto quarter = [](const Vec3D& v) { return Vec3D(-v.y(), v.x(), v.z()); };
+    {
+        auto wedge = make(true);
+        addGrain(*wedge, 0.5, {4, 1, 0}, {0, -1, 0.1});
+        wedge->solve();
+        const auto found = grainsAlong(*wedge, 0, 0.1 * wedge->getTime());
+        ASSERT_EQ(found.size(), 1u);
+        const GrainReference grain = found.begin()->second;
+        const double t = wedge->getTime();
+        EXPECT_LT((grain.getPosition() - quarter({4, 1 - t, 0.1 * t})).norm(), 1e-12);
+        EXPECT_LT((grain.getVelocity() - quarter({0, -1, 0.1})).norm(), 1e-14);
+    }
+    auto free = make(false), wedge = make(true);
+    const Vec3D one(4, 0.8, 0), other(4, -0.9, 0), v(0, -0.3, 0), w(0.1, 0.4, 0);
+    for (Scene1* scene : {free.get(), wedge.get()}) addGrain(*scene, 0.5, one, v);
+    addGrain(*free, 0.5, other, w);
+    addGrain(*wedge, 0.5, quarter(other), quarter(w));
+    for (Scene1* scene : {free.get(), wedge.get()}) scene->solve();
+    // The second one has gone up again, behind the other face.
+    const auto a = free->particleHandler.getObject(0), b = free->particleHandler.getObject(1);
+    EXPECT_GT(std::abs(a.getVelocity().y() - v.y()), 0.5);
+    int matched = 0;
+    for (const GrainReference grain : wedge->particleHandler) {
+        if (wedge->getCopies().isCopy(grain.getId())) continue;
+        for (const GrainReference& expected : {a, b}) {
+            const Vec3D& p = expected.getPosition();
+            const bool isInside = p.y() > 0;
+            const Vec3D place = isInside ? p : quarter(p),
+                        speed = isInside ? expected.getVelocity() : quarter(expected.getVelocity());
+            if ((grain.getPosition() - place).norm() > 1e-10) continue;
+            EXPECT_LT((grain.getVelocity() - speed).norm(), 1e-10);
+            ++matched;
+        }
+    }
+    EXPECT_EQ(matched, 2);
+}
+
+// Through a period whose images are moved, and move.
+TEST(MercuryPrograms, timeDependentPeriodicBoundary) {
+    Scene1 scene;
+    addSpecies(scene, 0.05, 1000);
+    addGrain(scene, 0.05, {0.5, 0.3, 0.5}, {0.2, 0.5, 0});
+    scene.setTimeStep(1e-3);
+    scene.setTimeMax(5);
+    auto tdpb = scene.boundaryHandler.copyAndAddObject(TimeDependentPeriodicBoundary());
+    tdpb->set(
+        Vec3D(0, 1, 0), -1, 1, [](double t) { return Vec3D(1.25 + 0.1 * t, 0, 0); },
+        [](double) { return Vec3D(0.1, 0, 0); });
+    tdpb->setMaxShift(3);
+    auto ends = scene.boundaryHandler.copyAndAddObject(PeriodicBoundary());
+    ends->set(Vec3D(1, 0, 0), 0, 3);
+    scene.solve();
+    // Through the upper face at 1.4 s, where it loses the shift at that time and the velocity of the image.
+    const double t = scene.getTime(), x = 0.5 + 0.2 * t - 1.25 - 0.1 * t;
+    for (const auto& [place, grain] : grainsAlong(scene, 1, 0.5)) {
+        EXPECT_NEAR(place, 0.3 + 0.5 * t - 2, 1e-12);
+        EXPECT_NEAR(std::remainder(grain.getPosition().x() - x, 3), 0, 1e-12);
+        EXPECT_NEAR(grain.getVelocity().x(), 0.1, 1e-15);
+    }
+    EXPECT_EQ(grainsAlong(scene, 1, 0.5).size(), 1u);
+}
+
+// A grain in a period of its own width touches itself on both sides: it does not move, and where its spin
+// winds up the springs of both, it swings with P sqrt(k_t / I).
+TEST(MercuryPrograms, thinPeriodOfOneGrain) {
+    const double radius = 1, overlap = 0.02, period = 2 * radius - overlap, kt = 200;
+    Scene1 scene;
+    auto species = addSpecies(scene, radius, 1000);
+    species->setSlidingStiffness(kt);
+    species->setSlidingFrictionCoefficient(1e3);
+    ThinPeriodicBoundary thin;
+    thin.set(Vec3D(1, 0, 0), 0, period);
+    scene.boundaryHandler.copyAndAddObject(thin);
+    GrainReference grain = addGrain(scene, radius, {0.3, 0, 0}, {0, 0, 0});
+    const double spin = 1e-3, rate = period * std::sqrt(kt / grain.getInertia());
+    grain.setAngularVelocity({0, 0, spin});
+    scene.setTimeStep(1e-4 * 2 * constants::pi / rate);
+    scene.setTimeMax(0.4 * 2 * constants::pi / rate);
+    scene.solve();
+    const auto found = grainsAlong(scene, 0, 0);
+    ASSERT_EQ(found.size(), 1u);
+    const GrainReference now = found.begin()->second;
+    EXPECT_LT((now.getPosition() - Vec3D(0.3, 0, 0)).norm(), 1e-12);
+    // Of the step: the square of the phase in one of them over 24, in 2.5 rad.
+    EXPECT_NEAR(now.getAngularVelocity().z() / spin, std::cos(rate * scene.getTime()), 1e-6);
+    EXPECT_GT(scene.getCopies().numberOfCopies(), 1u);
+}
+
+// Two grains in a period of both widths touch through both faces: apart from each other they swing with
+// 2 sqrt(k / m), and with sqrt(2 k / m) if one of the contacts is lost. Also in a period that is thin in a
+// second direction.
+TEST(MercuryPrograms, thinPeriodOfTwoGrains) {
+    for (const bool isThinTwice : {false, true}) {
+        const double radius = 1, overlap = 0.02, distance = 2 * radius - overlap, k = 1000;
+        Scene1 scene;
+        addSpecies(scene, radius, k);
+        for (const int axis : {0, 1}) {
+            ThinPeriodicBoundary thin;
+            thin.set(Vec3D::Unit(axis), 0, axis == 0 ? 2 * distance : 2.2 * radius);
+            if (axis == 0 || isThinTwice) scene.boundaryHandler.copyAndAddObject(thin);
+        }
+        addGrain(scene, radius, {0.5, 1, 0}, {0.01, 0, 0});
+        addGrain(scene, radius, {0.5 + distance, 1, 0}, {-0.01, 0, 0});
+        const double rate = 2 * std::sqrt(k / 1.0);
+        scene.setTimeStep(1e-4 * 2 * constants::pi / rate);
+        scene.setTimeMax(2.2 * 2 * constants::pi / rate);
+        scene.solve();
+        const auto found = grainsAlong(scene, 0, 0);
+        ASSERT_EQ(found.size(), 2u);
+        const double phase = rate * scene.getTime();
+        EXPECT_NEAR(found.begin()->second.getVelocity().x(), 0.01 * std::cos(phase), 1e-8);
+        EXPECT_NEAR(found.begin()->first, 0.5 + 0.01 / rate * std::sin(phase), 1e-9);
+    }
+}
+
+// A gas in a period of three grains' width has the motion that the kernel's own period gives it, also where
+// grains go through the faces, and through a restart.
+TEST(MercuryPrograms, thinPeriodIsThatOfTheKernel) {
+    const auto make = [](bool isThin, double end) {
+        auto scene = std::make_unique<Scene1>();
+        addSpecies(*scene, 0.2, 1e4)->setDissipation(1);
+        const double width = 1.8;
+        if (isThin) {
+            ThinPeriodicBoundary sides;
+            sides.set(Vec3D(1, 0, 0), 0, width);
+            scene->boundaryHandler.copyAndAddObject(sides);
+        } else {
+            PeriodicBoundary sides;
+            sides.set(Vec3D(1, 0, 0), 0, width);
+            scene->boundaryHandler.copyAndAddObject(sides);
+        }
+        UniformRandom random(7);
+        for (int k = 0; k < 3; ++k)
+            for (int j = 0; j < 5; ++j)
+                addGrain(*scene, 0.2, {0.3 + 0.6 * k, 0.5 * j, 0.01 * k},
+                         {random.uniform(-1, 1), random.uniform(-1, 1), 0});
+        for (const double side : {-1.0, 1.0})
+            scene->wallHandler.copyAndAddObject(InfiniteWall(Vec3D(0, side, 0), Vec3D(0, 1 + side * 1.4, 0),
+                                                             scene->speciesHandler.getObject(0)));
+        scene->setTimeStep(2e-4);
+        scene->setTimeMax(end);
+        return scene;
+    };
+    auto kernel = make(false, 1.5), thin = make(true, 1.5);
+    kernel->solve(), thin->solve();
+    std::size_t matched = 0;
+    for (const GrainReference grain : thin->particleHandler) {
+        if (thin->getCopies().isCopy(grain.getId())) continue;
+        for (const GrainReference same : kernel->particleHandler) {
+            const Vec3D way = same.getPosition() - grain.getPosition();
+            if (std::abs(std::remainder(way.x(), 1.8)) + std::abs(way.y()) + std::abs(way.z()) > 1e-6)
+                continue;
+            EXPECT_LT((same.getVelocity() - grain.getVelocity()).norm(), 1e-5);
+            ++matched;
+        }
+    }
+    EXPECT_EQ(matched, 15u);
+
+    const TestFolder folder;
+    auto first = make(true, 0.7), second = make(true, 1.5), other = make(true, 1.5);
+    first->solve();
+    first->writeRestart(folder.path() / "thin.h5");
+    ThinPeriodicBoundary more;
+    more.set(Vec3D(0, 0, 1), -5, 5);
+    other->boundaryHandler.copyAndAddObject(more);
+    other->restartFrom(folder.path() / "thin.h5");
+    const std::string otherFaces = refusal([&] { other->solve(); });
+    EXPECT_TRUE(isOneSentence(otherFaces) && contains(otherFaces, "faces")) << otherFaces;
+    second->restartFrom(folder.path() / "thin.h5");
+    second->solve();
+    ASSERT_EQ(second->particleHandler.getSize(), thin->particleHandler.getSize());
+    for (const GrainReference grain : thin->particleHandler) {
+        const GrainReference same = second->particleHandler.getObject(grain.getId());
+        EXPECT_EQ(same.getPosition(), grain.getPosition());
+        EXPECT_EQ(same.getVelocity(), grain.getVelocity());
+    }
+}
+
+TEST(MercuryPrograms, copiesSayWhatTheyAreNotFor) {
+    const auto said = [](const auto& boundary, bool withLedger) {
+        Scene1 scene;
+        addSpecies(scene, 1, 1000);
+        addGrain(scene, 1, {0.1, 0.1, 0}, {0, 0, 0});
+        scene.boundaryHandler.copyAndAddObject(boundary);
+        if (withLedger) scene.keepEnergyLedger();
+        scene.setTimeStep(1e-4), scene.setTimeMax(0);
+        return refusal([&] { scene.solve(); });
+    };
+    ThinPeriodicBoundary thin, narrow;
+    thin.set(Vec3D(1, 0, 0), 0, 2), narrow.set(Vec3D(1, 0, 0), 0, 0.5);
+    const std::string tooNarrow = said(narrow, false), ledger = said(thin, true);
+    EXPECT_TRUE(isOneSentence(tooNarrow) && contains(tooNarrow, "0.5 m apart")) << tooNarrow;
+    EXPECT_TRUE(isOneSentence(ledger) && contains(ledger, "eneFile")) << ledger;
+    // A copy that an outlet takes out would come and go in each step.
+    Scene1 scene;
+    addSpecies(scene, 1, 1000);
+    addGrain(scene, 1, {0.1, 0.1, 0}, {0, 0, 0});
+    scene.boundaryHandler.copyAndAddObject(thin);
+    DeletionBoundary outlet;
+    outlet.set(Vec3D(1, 0, 0), 2);
+    scene.boundaryHandler.copyAndAddObject(outlet);
+    scene.setTimeStep(1e-4), scene.setTimeMax(1e-3);
+    std::string takenOut;
+    try {
+        scene.solve();
+    } catch (const RunError& error) {
+        takenOut = error.what();
+    }
+    EXPECT_TRUE(contains(takenOut, "a copy of particle 0, was taken out")) << takenOut;
+    AngledPeriodicBoundary flat;
+    EXPECT_TRUE(isOneSentence(refusal([&] {
+        flat.set(Vec3D(1, 0, 0), Vec3D(1, 0, 0), Vec3D::Zero());
+        static_cast<void>(said(flat, false));
+        Scene1 scene;
+        scene.boundaryHandler.copyAndAddObject(flat);
+    })));
+    EXPECT_TRUE(isOneSentence(refusal([&] { ThinPeriodicBoundary().set(Vec3D::Zero(), 0, 1); })));
+    EXPECT_TRUE(isOneSentence(refusal([&] { SubcriticalMaserBoundary().set(Vec3D(1, 0, 0), 1, 0); })));
+}
+
+}  // namespace
+}  // namespace pendular::mercuryCopiesTest
