@@ -16,6 +16,7 @@ void bindGrainArrays(SceneClass& scene);
 void bindBodies(py::module_& module, SceneClass& scene);
 void bindWalls(py::module_& module, SceneClass& scene);
 void bindMembranes(py::module_& module, SceneClass& scene);
+void bindHostWalls(py::module_& module, SceneClass& scene);
 void bindRun(SceneClass& scene);
 void bindSpace(SceneClass& scene);
 void bindFlows(SceneClass& scene);
@@ -25,6 +26,7 @@ void bindFields(SceneClass& scene);
 void bindOutputs(SceneClass& scene);
 void bindBonds(SceneClass& scene);
 void bindHeat(SceneClass& scene);
+void bindFluid(py::module_& module, SceneClass& scene);
 void bindSoftness(py::module_& module, SceneClass& scene);
 
 }  // namespace pendular::python

@@ -112,6 +112,7 @@ PYBIND11_MODULE(_kernel, module) {
     bindGrainArrays(scene);
     bindWalls(module, scene);
     bindMembranes(module, scene);
+    bindHostWalls(module, scene);
     bindRun(scene);
     bindSpace(scene);
     bindFlows(scene);
@@ -121,6 +122,7 @@ PYBIND11_MODULE(_kernel, module) {
     bindOutputs(scene);
     bindBonds(scene);
     bindHeat(scene);
+    bindFluid(module, scene);
     bindSoftness(module, scene);
 
     module.def("load_species", &loadSpecies, py::arg("library"), comment("loadSpeciesLibrary"));
