@@ -6,23 +6,25 @@
 #   With --python also those of the Python module and its tests.
 #   With --view also those of the server of runs in the browser (Tools/View), with --page those of its page, with
 #   --browser a browser without a screen for its tests.
+#   With --hosts also other programs that examples take: finite elements.
 #   With --mpi also those for runs on several processes (PENDULAR_MPI), and their tests.
 #   With --clang also clang, with libFuzzer (presets asan-ubsan, tsan and fuzz), clang-format and clang-tidy.
 set -euo pipefail
 
-check=no readers=no python=no mpi=no clang=no view=no page=no browser=no
+check=no hosts=no readers=no python=no mpi=no clang=no view=no page=no browser=no
 for option in "$@"; do
     case $option in
         --check) check=yes ;;
         --readers) readers=yes ;;
         --python) python=yes ;;
+        --hosts) hosts=yes ;;
         --mpi) mpi=yes ;;
         --clang) clang=yes ;;
         --view) view=yes ;;
         --page) page=yes ;;
         --browser) browser=yes ;;
         *)
-            echo "usage: Tools/install-dependencies.sh [--check] [--readers] [--python] [--mpi] [--clang] [--view] [--page] [--browser]" >&2
+            echo "usage: Tools/install-dependencies.sh [--check] [--readers] [--python] [--hosts] [--mpi] [--clang] [--view] [--page] [--browser]" >&2
             exit 2
             ;;
     esac
@@ -82,6 +84,11 @@ if [[ $browser == yes ]]; then
 chromium|chromium|the browser of tests
 chromium-driver|chromedriver|the browser of tests
 python3-selenium||drives the browser of tests'
+fi
+if [[ $hosts == yes ]]; then
+    packages+='
+python3-getfem||finite elements of the example Libraries/getfem_plate.py
+python3-scipy||its sparse matrices'
 fi
 if [[ $mpi == yes ]]; then
     packages+='

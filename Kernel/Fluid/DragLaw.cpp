@@ -1,12 +1,11 @@
 #include "Kernel/Fluid/DragLaw.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
-#include <string>
+#include <vector>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Species/LawNames.h"
 
 namespace pendular {
 
@@ -109,12 +108,12 @@ double root(Function&& grows, double wanted) {
 std::span<const DragLaw> dragLaws() { return laws; }
 
 const DragLaw& dragLaw(std::string_view name) {
-    std::string names;
+    std::vector<std::string_view> names;
     for (const DragLaw& law : laws) {
         if (law.name == name) return law;
-        names += fmt::format("{}{}", names.empty() ? "" : ", ", law.name);
+        names.push_back(law.name);
     }
-    throw InputError(fmt::format("There is no drag law '{}'; there are {}.", name, names));
+    unknownName("drag law", name, names);
 }
 
 double terminalSpeed(double diameter, double density, const FluidMaterial& fluid, double gravity) {

@@ -51,7 +51,7 @@ struct DragLaw {
 
 /// All of them.
 [[nodiscard]] std::span<const DragLaw> dragLaws();
-/// Throws InputError, with the names that there are, for one that is not.
+/// Throws InputError, with the nearest of the names that there are, for one that is not.
 [[nodiscard]] const DragLaw& dragLaw(std::string_view name);
 
 /// Drag coefficient of a sphere alone: 24/Re (1 + 0.15 Re^0.687) below Re = 1000, 0.44 from there (0.4 %

@@ -84,6 +84,10 @@ MembraneWork workOf(const Membrane& membrane, const MembraneState& was, const Me
     return work;
 }
 
+std::string_view kindOf(const Membrane& membrane) {
+    return membrane.isOfHost() ? "whose vertices a host moves" : "a membrane";
+}
+
 void refuseCollapse(std::size_t number, const Membrane& membrane, const Step& step) {
     const int triangle = membrane.getNet().collapsed(membrane.state().position);
     if (triangle < 0) return;
@@ -91,9 +95,11 @@ void refuseCollapse(std::size_t number, const Membrane& membrane, const Step& st
     const Vector<double> middle = (1.0 / 3) * (membrane.state().position[a] + membrane.state().position[b] +
                                                membrane.state().position[c]);
     throw RunError(fmt::format(
-        "At time {:.6g} s triangle {} of wall {}, a membrane, at ({:.6g}, {:.6g}, {:.6g}) m has collapsed or "
-        "folded onto its neighbour: press it less, or take a finer or a thicker net, or more damping.",
-        step.time, triangle, number, middle.x, middle.y, middle.z));
+        "At time {:.6g} s triangle {} of wall {}, {}, at ({:.6g}, {:.6g}, {:.6g}) m has collapsed or "
+        "folded onto its neighbour: {}.",
+        step.time, triangle, number, kindOf(membrane), middle.x, middle.y, middle.z,
+        membrane.isOfHost() ? "the host must keep its triangles open"
+                            : "press it less, or take a finer or a thicker net, or more damping"));
 }
 
 void refuseSelfContact(std::size_t number, Membrane& membrane, const Step& step) {
@@ -101,10 +107,11 @@ void refuseSelfContact(std::size_t number, Membrane& membrane, const Step& step)
     if (!found) return;
     const auto& [a, b] = membrane.getNet().springs()[found->edge].ends;
     throw RunError(fmt::format(
-        "At time {:.6g} s wall {}, a membrane, goes through itself at ({:.6g}, {:.6g}, {:.6g}) m, the edge "
+        "At time {:.6g} s wall {}, {}, goes through itself at ({:.6g}, {:.6g}, {:.6g}) m, the edge "
         "between its vertices {} and {} through triangle {}: it does not touch itself, so keep its parts "
         "apart by tension, by grains between them, or by a lower pressure.",
-        step.time, number, found->place.x, found->place.y, found->place.z, a, b, found->triangle));
+        step.time, number, kindOf(membrane), found->place.x, found->place.y, found->place.z, a, b,
+        found->triangle));
 }
 
 /// The force acts where the shape of a grain touches, and not straight below its centre.
@@ -201,10 +208,9 @@ void MembraneMotion::begin(const WallHandler& walls, const Step& step) {
         }
         if (!isFinite)
             throw RunError(
-                fmt::format("At time {:.6g} s the place of a vertex of wall {}, a membrane, is not finite: "
-                            "take a smaller "
-                            "time step, or a smaller pressure.",
-                            step.time, number));
+                fmt::format("At time {:.6g} s the place of a vertex of wall {}, {}, is not finite: take a "
+                            "smaller time step, or a smaller pressure.",
+                            step.time, number, kindOf(membrane)));
         for (const MembraneNet::Copy& copy : membrane.getNet().copies()) {
             next.position[copy.vertex] = next.position[copy.of] + copy.shift;
             next.velocity[copy.vertex] = next.velocity[copy.of];
@@ -212,11 +218,11 @@ void MembraneMotion::begin(const WallHandler& walls, const Step& step) {
         const double farthest = std::sqrt(farthest2);
         if (farthest > step.smallestRadius)
             throw RunError(fmt::format(
-                "At time {:.6g} s a vertex of wall {}, a membrane, moves {:.4g} m in a step of {:.4g} s, "
-                "more "
-                "than the smallest radius, {:.4g} m: take a smaller time step, a smaller pressure or more "
-                "damping.",
-                step.time, number, farthest, step.length, step.smallestRadius));
+                "At time {:.6g} s a vertex of wall {}, {}, moves {:.4g} m in a step of {:.4g} s, more than "
+                "the smallest radius, {:.4g} m: {}.",
+                step.time, number, kindOf(membrane), farthest, step.length, step.smallestRadius,
+                membrane.isOfHost() ? "take a smaller time step, or let the host move it slower"
+                                    : "take a smaller time step, a smaller pressure or more damping"));
         membrane.goOn(std::move(next), farthest);
         refuseCollapse(number, membrane, step);
         refuseSelfContact(number, membrane, step);
@@ -242,6 +248,8 @@ void MembraneMotion::finish(const WallHandler& walls, const ContactSystem& conta
                     (end.acceleration[v] - s.now * was.acceleration[v] + s.earlier * was.earlier[v]);
             end.earlier[v] = was.acceleration[v];
         }
+        for (std::size_t v = 0; v < end.impulse.size(); ++v)
+            end.impulse[v] += 0.5 * step.length * (was.ofGrains[v] + end.ofGrains[v]);
         if (keepsWork) membrane.work = workOf(membrane, was, end, step);
         membrane.finish(std::move(end));
     });

@@ -9,24 +9,34 @@
 
 namespace pendular {
 
-void Membrane::set(std::span<const Triangle> triangles, const MembraneMaterial& of) {
+void Membrane::requireBeforeRun() const {
     if (isSet() && pendular::isSet(began))
-        throw InputError("Membrane: its shape cannot be set again in a run; remove it and add another one.");
-    net = std::make_shared<const MembraneNet>(triangles, of);
+        throw InputError(
+            "A membrane's shape cannot be set again in a run; remove the wall and add another one.");
+}
+
+void Membrane::set(std::span<const Triangle> triangles, const MembraneMaterial& of) {
+    requireBeforeRun();
     material = of;
     areaDensity = of.density * of.thickness;
+    begin(std::make_shared<const MembraneNet>(triangles, of));
+}
+
+void Membrane::begin(std::shared_ptr<const MembraneNet> of) {
+    net = std::move(of);
     const std::size_t count = net->vertices().size();
     const MembraneState::Column none(count, {0, 0, 0});
-    now = {net->vertices(), none, none, none, none, none, none, {0, 0, 0}};
+    now = {net->vertices(), none, none, none, none, none, none, {}, {0, 0, 0}};
     held.assign(count, false);
     heldAsRim.assign(count, false);
     RepeatedWall::repeat({0, 0, 0});  // the scene looks at the new shape
     makeShape();
     if (const auto found = crossing())
         throw InputError(
-            fmt::format("Membrane: it goes through itself at ({:.6g}, {:.6g}, {:.6g}) m, at triangle {}; a "
+            fmt::format("{}: it goes through itself at ({:.6g}, {:.6g}, {:.6g}) m, at triangle {}; a "
                         "membrane does not touch itself, so its triangles must be apart.",
-                        found->place.x, found->place.y, found->place.z, found->triangle));
+                        isOfHost() ? "HostWall" : "Membrane", found->place.x, found->place.y, found->place.z,
+                        found->triangle));
 }
 
 void Membrane::makeShape() {
@@ -207,7 +217,7 @@ WallSurface Membrane::surface(const SceneSphere&) const {
 
 void Membrane::visitState(StateArchive& archive) {
     Wall::visitState(archive);
-    archive.same("shape", "Membrane");
+    archive.same("shape", isOfHost() ? "HostWall" : "Membrane");
     archive.same("triangles", net->triangles().size());
     archive.same<double>("corners", std::span<const Vector<double>>(net->givenVertices()));
     archive.same<std::uint32_t>("cornersOfTriangles",
@@ -237,6 +247,7 @@ void Membrane::visitState(StateArchive& archive) {
     visit("position", now.position), visit("velocity", now.velocity);
     visit("acceleration", now.acceleration), visit("earlier", now.earlier);
     visit("ofGrains", now.ofGrains), visit("elastic", now.elastic), visit("ofPressure", now.ofPressure);
+    if (isOfHost()) visit("impulse", now.impulse);
     archive.finite("gravity", now.gravity);
     if (!archive.isReading()) return;
     archive.require(net->collapsed(now.position) < 0, "position", "has a triangle without area");

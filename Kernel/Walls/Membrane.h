@@ -20,6 +20,7 @@ struct MembraneState {
     Column ofGrains;            // N, of the contacts
     Column elastic;             // N, of springs and hinges
     Column ofPressure;          // N
+    Column impulse;             // N s, of the grains since a host last moved it; empty where none does
     Vector<double> gravity{0, 0, 0};  // m/s^2, that accelerations have
 };
 
@@ -38,7 +39,7 @@ struct MembraneWork {
 /// a run ends where a triangle collapses or folds onto its neighbour, or where the membrane goes through
 /// itself. A scene that repeats itself repeats it, and joins free edges that lie a period apart
 /// (MembraneNet::joinAcross()); whether it goes through its images is not looked at.
-class Membrane final : public RepeatedWall {
+class Membrane : public RepeatedWall {
 public:
     /// Throws InputError as MembraneNet, and for triangles that go through each other.
     void set(std::span<const Triangle> triangles, const MembraneMaterial& material);
@@ -87,6 +88,9 @@ public:
     [[nodiscard]] double squaredFrequency() const { return getNet().squaredFrequency(atRest()); }  // 1/s^2
     [[nodiscard]] double massOfArea() const { return areaDensity; }                                // kg/m^2
 
+    /// Whether a host moves its vertices (HostWall).
+    [[nodiscard]] virtual bool isOfHost() const { return false; }
+
     using Wall::membrane;
     [[nodiscard]] Membrane* membrane() override { return this; }
     [[nodiscard]] std::size_t partCount() const override { return getNet().triangles().size(); }
@@ -122,6 +126,12 @@ public:
     MembraneWork work;
 
 protected:
+    /// Its vertices are at rest where the net has them.
+    void begin(std::shared_ptr<const MembraneNet> of);
+    void requireBeforeRun() const;
+    [[nodiscard]] MembraneState& changed() { return now; }
+    [[nodiscard]] std::vector<bool>& heldOnes() { return held; }
+
     void listOwn(const Vector<double>& centre, double reach,
                  std::vector<std::uint32_t>& parts) const override {
         shape.listParts(centre, reach, parts);

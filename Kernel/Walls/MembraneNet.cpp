@@ -11,6 +11,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Shapes/WeldedMesh.h"
+#include "Kernel/Walls/BoxTree.h"
 
 namespace pendular {
 namespace {
@@ -61,13 +62,53 @@ HingeAngle hingeAngle(const std::array<Point, 4>& x) {
 MembraneNet::MembraneNet(std::span<const Triangle> given, const MembraneMaterial& of) : material(of) {
     checkMaterial(material);
     join(given);
+    requireAreas();
     unjoined = rest;
     measure();
+    requireUnfolded();
+}
+
+/// Its mass has no meaning, but is not 0.
+MembraneNet::MembraneNet(Points given, std::span<const std::array<Index, 3>> triangles)
+    : owner("HostWall"),
+      material{.youngsModulus = 0, .thickness = 1, .density = 1},
+      unjoined(given.begin(), given.end()),
+      rest(unjoined),
+      faces(triangles.begin(), triangles.end()) {
+    requireVertices();
+    Box all;
+    for (const Point& vertex : rest) all.include(vertex);
+    extent = norm(all.highest - all.lowest);
+    requireAreas();
+    measure();
+    requireUnfolded();
+}
+
+void MembraneNet::requireVertices() const {
+    for (const Point& vertex : rest)
+        for (const double x : {vertex.x, vertex.y, vertex.z})
+            checkValue(owner, "coordinate of a vertex", x, "m", {-1e9, 1e9});
+    std::vector<bool> isCorner(rest.size(), false);
+    for (std::size_t t = 0; t < faces.size(); ++t)
+        for (const Index corner : faces[t]) {
+            if (corner >= rest.size())
+                throw InputError(
+                    fmt::format("{}: triangle {} has the corner {}; there are {} vertices, counted from 0.",
+                                owner, t, corner, rest.size()));
+            isCorner[corner] = true;
+        }
+    if (faces.empty()) throw InputError(fmt::format("{}: there are no triangles.", owner));
+    if (const auto left = std::ranges::find(isCorner, false); left != isCorner.end())
+        throw InputError(fmt::format("{}: vertex {} is a corner of no triangle; leave it out.", owner,
+                                     left - isCorner.begin()));
+}
+
+void MembraneNet::requireUnfolded() const {
     if (const int folded = collapsed(rest); folded >= 0)
         throw InputError(
-            fmt::format("Membrane: triangle {} (counted from 0) is folded onto a neighbour, by more than 170 "
+            fmt::format("{}: triangle {} (counted from 0) is folded onto a neighbour, by more than 170 "
                         "degrees; a net without force must be folded less.",
-                        folded));
+                        owner, folded));
 }
 
 void MembraneNet::join(std::span<const Triangle> given) {
@@ -88,27 +129,32 @@ void MembraneNet::join(std::span<const Triangle> given) {
         }
         return *number[vertex];
     };
-    for (std::size_t t = 0; t < given.size(); ++t) {
+    for (const std::array<Index, 3>& corners : mesh.corners) {
         std::array<Index, 3> c;
-        for (std::size_t k = 0; k < 3; ++k) c[k] = numberOf(mesh.corners[t][k]);
-        const Point a = rest[c[0]], b = rest[c[1]], d = rest[c[2]];
-        const double twice = norm(twiceArea(a, b, d)),
-                     longest = std::max({norm(b - a), norm(d - a), norm(d - b)});
-        if (!(twice > 1e-6 * longest * longest))
-            throw InputError(
-                fmt::format("Membrane: triangle {} (counted from 0) has no area; a net needs triangles whose "
-                            "height is at "
-                            "least 1e-6 of their longest edge, better near to equilateral ones.",
-                            t));
+        for (std::size_t k = 0; k < 3; ++k) c[k] = numberOf(corners[k]);
         faces.push_back(c);
     }
 }
 
-void MembraneNet::refuseSenses(Index one, Index other) {
-    throw InputError(fmt::format(
-        "Membrane: the corners of triangles {} and {} (counted from 0) run in opposite senses, so "
-        "that their normals point to different sides; turn one of them round.",
-        one, other));
+void MembraneNet::requireAreas() const {
+    for (std::size_t t = 0; t < faces.size(); ++t) {
+        const Point a = rest[faces[t][0]], b = rest[faces[t][1]], d = rest[faces[t][2]];
+        const double twice = norm(twiceArea(a, b, d)),
+                     longest = std::max({norm(b - a), norm(d - a), norm(d - b)});
+        if (!(twice > 1e-6 * longest * longest))
+            throw InputError(
+                fmt::format("{}: triangle {} (counted from 0) has no area; a net needs triangles whose "
+                            "height is at "
+                            "least 1e-6 of their longest edge, better near to equilateral ones.",
+                            owner, t));
+    }
+}
+
+void MembraneNet::refuseSenses(Index one, Index other) const {
+    throw InputError(
+        fmt::format("{}: the corners of triangles {} and {} (counted from 0) run in opposite senses, so "
+                    "that their normals point to different sides; turn one of them round.",
+                    owner, one, other));
 }
 
 void MembraneNet::measure() {
@@ -134,9 +180,9 @@ void MembraneNet::measure() {
 void MembraneNet::addEdge(const std::array<Index, 2>& ends, std::span<const Side> at) {
     if (at.size() > 2)
         throw InputError(
-            fmt::format("Membrane: triangles {}, {} and {} (counted from 0) share an edge; a membrane has at "
-                        "most two at each.",
-                        at[0].triangle, at[1].triangle, at[2].triangle));
+            fmt::format("{}: triangles {}, {} and {} (counted from 0) share an edge; a net has at most two "
+                        "at each.",
+                        owner, at[0].triangle, at[1].triangle, at[2].triangle));
     double area = 0;
     for (const Side& side : at) area += areas[side.triangle];
     const double length = norm(rest[ends[1]] - rest[ends[0]]);
@@ -170,6 +216,7 @@ bool MembraneNet::isClosed() const {
 }
 
 void MembraneNet::addElasticForces(Points at, std::span<Point> forces) const {
+    if (!hasSprings()) return;
     for (const Spring& spring : edges) {
         const Point along = at[spring.ends[1]] - at[spring.ends[0]];
         const double length = norm(along);
@@ -192,6 +239,7 @@ void MembraneNet::addPressureForces(Points at, double pressure, std::span<Point>
 }
 
 double MembraneNet::stretchingEnergy(Points at) const {
+    if (!hasSprings()) return 0;
     double sum = 0;
     for (const Spring& spring : edges) {
         const double stretch = norm(at[spring.ends[1]] - at[spring.ends[0]]) - spring.length;
@@ -201,6 +249,7 @@ double MembraneNet::stretchingEnergy(Points at) const {
 }
 
 double MembraneNet::bendingEnergy(Points at) const {
+    if (!hasSprings()) return 0;
     double sum = 0;
     for (const Hinge& hinge : folds) {
         const double turn = hingeAngle(cornersOf(hinge, at)).angle - hinge.angle;

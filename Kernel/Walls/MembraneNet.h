@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "Kernel/Species/Field.h"
@@ -65,6 +66,9 @@ public:
     /// neighbours whose corners run in opposite senses or that are folded by more than 170 degrees, and a net
     /// that is smaller than 1e-12 m.
     MembraneNet(std::span<const Triangle> given, const MembraneMaterial& material);
+    /// Triangles of given vertices (m), which keep their numbers, without springs and hinges: of a HostWall.
+    /// Each vertex must be a corner. Throws InputError as the other one does for its triangles.
+    MembraneNet(Points given, std::span<const std::array<std::uint32_t, 3>> triangles);
 
     /// Joins the net to its images in a scene that repeats itself: vertices at free edges that lie a period
     /// apart, to 1e-4 of the shortest edge, become one, and edges between them get hinges. Undoes what it
@@ -92,6 +96,7 @@ public:
     /// Whether each vertex lies at a free edge that is not joined to another one.
     [[nodiscard]] const std::vector<bool>& rim() const { return atRim; }
     [[nodiscard]] bool isClosed() const;
+    [[nodiscard]] bool hasSprings() const { return material.youngsModulus > 0; }
     [[nodiscard]] double diagonal() const { return extent; }        // m, the diagonal of the box around it
     [[nodiscard]] double shortestEdge() const { return shortest; }  // m, without force
 
@@ -126,9 +131,12 @@ private:
     using Partners = std::array<std::vector<std::optional<std::uint32_t>>, 3>;
 
     void join(std::span<const Triangle> given);
+    void requireVertices() const;
+    void requireAreas() const;
+    void requireUnfolded() const;
     /// Finds all that follows from where the vertices are without force.
     void measure();
-    [[noreturn]] static void refuseSenses(std::uint32_t triangle, std::uint32_t other);
+    [[noreturn]] void refuseSenses(std::uint32_t triangle, std::uint32_t other) const;
     void addEdge(const std::array<std::uint32_t, 2>& ends, std::span<const Side> sides);
     void addHinge(const Side& first, const Side& second, const Point& shift);
     [[nodiscard]] Partners partnersAcross(const Point& periods) const;
@@ -138,6 +146,7 @@ private:
         return faces[side.triangle][(side.from + after) % 3];
     }
 
+    std::string_view owner = "Membrane";  // in messages
     MembraneMaterial material;
     std::vector<Point> unjoined, rest;
     std::vector<double> mass, moved;

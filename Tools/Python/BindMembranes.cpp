@@ -43,6 +43,14 @@ py::array vertices(const WallHandle& wall, Of&& of) {
     return arrayOf(std::move(rows));
 }
 
+py::array triangles(const WallHandle& wall) {
+    std::vector<std::int64_t> corners;
+    for (const auto& triangle : wall.as<Membrane>("triangles").getNet().triangles())
+        corners.insert(corners.end(), triangle.begin(), triangle.end());
+    const auto count = static_cast<py::ssize_t>(corners.size() / 3);
+    return arrayOf(std::move(corners), {count, 3});
+}
+
 WearLaw wearLaw(const std::string& law, const py::kwargs& given) {
     const auto value = [&](const char* name) {
         if (!given.contains(name))
@@ -102,7 +110,9 @@ void bindMembranes(py::module_& module, SceneClass& scene) {
             [](const WallHandle& w) {
                 return vertices(w, [](const Membrane& m, std::size_t k) { return m.getPosition(k); });
             },
-            "m, N x 3: where the vertices of a membrane are.")
+            "m, N x 3: where the vertices of a membrane or host wall are.")
+        .def_property_readonly("triangles", &triangles,
+                               "N x 3: the numbers of the vertices at their corners.")
         .def_property_readonly(
             "vertex_velocities",
             [](const WallHandle& w) {

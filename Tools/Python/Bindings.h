@@ -16,6 +16,7 @@ void bindGrainArrays(SceneClass& scene);
 void bindBodies(py::module_& module, SceneClass& scene);
 void bindWalls(py::module_& module, SceneClass& scene);
 void bindMembranes(py::module_& module, SceneClass& scene);
+void bindHostWalls(py::module_& module, SceneClass& scene);
 void bindRun(SceneClass& scene);
 void bindSpace(SceneClass& scene);
 void bindFlows(SceneClass& scene);
@@ -26,6 +27,7 @@ void bindOutputs(SceneClass& scene);
 void bindParts(SceneClass& scene);
 void bindBonds(SceneClass& scene);
 void bindHeat(SceneClass& scene);
+void bindFluid(py::module_& module, SceneClass& scene);
 void bindSoftness(py::module_& module, SceneClass& scene);
 
 }  // namespace pendular::python

@@ -133,6 +133,7 @@ PYBIND11_MODULE(_kernel, module) {
     bindGrainArrays(scene);
     bindWalls(module, scene);
     bindMembranes(module, scene);
+    bindHostWalls(module, scene);
     bindRun(scene);
     bindSpace(scene);
     bindFlows(scene);
@@ -143,6 +144,7 @@ PYBIND11_MODULE(_kernel, module) {
     bindParts(scene);
     bindBonds(scene);
     bindHeat(scene);
+    bindFluid(module, scene);
     bindSoftness(module, scene);
 
     module.def("load_species", &loadSpecies, py::arg("library"), comment("loadSpeciesLibrary"));

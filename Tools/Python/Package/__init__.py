@@ -19,6 +19,7 @@ from ._choose import choose as _choose
 _choose(_os.path.dirname(__file__), __path__)
 
 from ._kernel import (  # noqa: E402  (which is in the folder that was chosen)
+    Fluid,
     InputError,
     Mixture,
     Region,
@@ -28,11 +29,14 @@ from ._kernel import (  # noqa: E402  (which is in the folder that was chosen)
     Sizes,
     Species,
     Wall,
+    balanced_speed,
     bidisperse_sizes,
     block,
     box,
     clump,
     cylinder,
+    drag_force,
+    drag_laws,
     even_sizes,
     fields,
     load_species,
@@ -52,6 +56,7 @@ from ._kernel import (  # noqa: E402  (which is in the folder that was chosen)
     species,
     sphere,
     superquadric,
+    terminal_speed,
 )
 from ._kernel import __version__ as _version
 from ._log import show_log as _show_log
@@ -59,11 +64,12 @@ from .results import draw, frames, restart, table, to_pyvista, walls_to_pyvista
 from .scene import Scene
 
 __all__ = [
-    "InputError", "Mixture", "Region", "RunError", "RunStopped", "Scene", "Shape", "Sizes", "Species", "Wall",
-    "bidisperse_sizes", "block", "box", "clump", "cylinder", "draw", "even_sizes", "fields", "frames", "load_species",
-    "lognormal_sizes", "membrane_sheet", "membrane_tube", "mesh_inside", "normal_sizes", "one_size", "rank", "rank_count",
-    "read_sizes", "restart", "rosin_rammler_sizes", "shaped_species", "sizes", "softest_modulus", "species", "sphere",
-    "superquadric", "table", "to_pyvista", "walls_to_pyvista",
+    "Fluid", "InputError", "Mixture", "Region", "RunError", "RunStopped", "Scene", "Shape", "Sizes", "Species",
+    "Wall", "balanced_speed", "bidisperse_sizes", "block", "box", "clump", "cylinder", "drag_force", "drag_laws",
+    "draw", "even_sizes", "fields", "frames", "load_species", "lognormal_sizes", "membrane_sheet", "membrane_tube",
+    "mesh_inside", "normal_sizes", "one_size", "rank", "rank_count", "read_sizes", "restart", "rosin_rammler_sizes",
+    "shaped_species", "sizes", "softest_modulus", "species", "sphere", "superquadric", "table", "terminal_speed",
+    "to_pyvista", "walls_to_pyvista",
 ]  # fmt: skip
 __version__ = _version
 

@@ -5,12 +5,14 @@
 namespace pendular::lattice {
 
 /// A bridge between two equal spheres on the z axis, of which an eighth is computed: mirror planes through
-/// the axis and half way between the spheres.
+/// the axis and half way between the spheres. Of one that begins off the axis, and may slip along x, a
+/// quarter: without the plane across x.
 struct BridgeCase {
     double radius = 20;     // R, nodes
     double gap = 0.625;     // S/R
     double volume = 0.133;  // V/(4 pi R^3/3): where it begins
     double wetting = 0.1;   // Delta rho
+    double start = 0;       // off the axis along x, where the liquid begins, in R; 0: an eighth is computed
     FluidSettings fluid;
 };
 
@@ -22,6 +24,8 @@ struct BridgeState {
     double volume;         // V/(4 pi R^3/3), inside the mid level
     double force;          // F/(gamma R): of the sphere
     double thrust;         // the same by the momentum through the mid plane and the far side
+    double offAxis;        // of the centre of the liquid in the mid plane, along x, in R
+    double waist;          // radius of the liquid in the mid plane, of its area, in R
     double liquid, other;  // densities of the component that prevails
     double speed;          // largest, lattice units
     double capillaryNumber;

@@ -70,14 +70,20 @@ static std::array<double, 2> gradientNorms(const TwoFluids& fluids, const Node& 
     return {sum, std::sqrt(squares)};
 }
 
-double volumeAbove(const TwoFluids& fluids, double level) {
-    double volume = 0;
+void forEachVolumeAbove(const TwoFluids& fluids, double level,
+                        const std::function<void(const Node&, double)>& function) {
     fluids.grid().forEachNode([&](const Node& node) {
         if (fluids.solidAt(node) >= 0) return;
         const double above = fluids.densityAt(node)[0] - level;
         const double spread = gradientNorms(fluids, node)[0];  // of the density, over the cube
-        volume += spread > 0 ? std::clamp(0.5 + above / spread, 0.0, 1.0) : (above > 0 ? 1 : 0);
+        const double share = spread > 0 ? std::clamp(0.5 + above / spread, 0.0, 1.0) : (above > 0 ? 1 : 0);
+        if (share > 0) function(node, share);
     });
+}
+
+double volumeAbove(const TwoFluids& fluids, double level) {
+    double volume = 0;
+    forEachVolumeAbove(fluids, level, [&](const Node&, double share) { volume += share; });
     return volume;
 }
 
@@ -93,6 +99,61 @@ FittedCircle fitOnLine(const std::vector<Vector<double>>& points, const Vector<d
     }
     const Eigen::Vector2d found = left.colPivHouseholderQr().solve(right);
     return {found[0], std::sqrt(found[1] + found[0] * found[0])};
+}
+
+double midLevel(const TwoFluids& fluids, const Probes& probes) {
+    return 0.5 * (fluids.densityAt(probes.liquid)[0] + fluids.densityAt(probes.other)[0]);
+}
+
+Node lastNode(const TwoFluids& fluids) {
+    const Node& nodes = fluids.grid().box().nodes;
+    return {nodes[0] - 1, nodes[1] - 1, nodes[2] - 1};
+}
+
+/// Multiplies the first component in the liquid, and takes as much of the second one outside.
+static void addLiquid(TwoFluids& fluids, double level, double share, double volume) {
+    double rest = -volume;
+    fluids.grid().forEachNode([&](const Node& node) { rest += fluids.solidAt(node) < 0 ? 1 : 0; });
+    fluids.scale([&](const Node& node) -> Densities {
+        return fluids.densityAt(node)[0] > level ? Densities{1 + share, 1}
+                                                 : Densities{1, 1 - share * volume / rest};
+    });
+}
+
+std::size_t addLiquidUntil(TwoFluids& fluids, const Probes& probes, double wanted, double tolerance,
+                           std::size_t limit) {
+    constexpr std::size_t window = 500;
+    std::size_t done = 0;
+    for (int within = 0; within < 4 && done < limit; done += window) {
+        fluids.steps(window);
+        const double level = midLevel(fluids, probes);
+        const double volume = volumeAbove(fluids, level), lack = wanted / volume - 1;
+        within = std::abs(lack) < tolerance ? within + 1 : 0;
+        if (within == 0) addLiquid(fluids, level, lack, volume);
+    }
+    return done;
+}
+
+double cylinderBetween(const std::array<double, 2>& radii, double gap, double volume) {
+    const auto cap = [](double radius, double distance) {
+        return radius - std::sqrt(std::max(0.0, radius * radius - distance * distance));
+    };
+    const auto volumeWithin = [&](double radius) {
+        constexpr int rings = 400;
+        double sum = 0;
+        for (int k = 0; k < rings; ++k) {
+            const double middle = (k + 0.5) * radius / rings;
+            sum += 2 * std::numbers::pi * middle * (gap + cap(radii[0], middle) + cap(radii[1], middle)) *
+                   radius / rings;
+        }
+        return sum;
+    };
+    double low = 0, high = 2 * std::max(radii[0], radii[1]);
+    for (int k = 0; k < 50; ++k) {
+        const double middle = 0.5 * (low + high);
+        (volumeWithin(middle) < volume ? low : high) = middle;
+    }
+    return low;
 }
 
 std::size_t settle(TwoFluids& fluids, const std::function<double()>& value, double tolerance,

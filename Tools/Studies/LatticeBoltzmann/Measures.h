@@ -43,8 +43,11 @@ private:
 /// of fluid both.
 [[nodiscard]] std::vector<Vector<double>> crossings(const TwoFluids& fluids, double level);
 
-/// The volume in the box in which the first component is denser than a level: of the cube around a node the
-/// share that a plane with the gradient there cuts off, to first order.
+/// Calls function(node, share) for each node with a share of its cube in which the first component is denser
+/// than a level: what a plane with the gradient there cuts off, to first order.
+void forEachVolumeAbove(const TwoFluids& fluids, double level,
+                        const std::function<void(const Node&, double)>& function);
+/// The volume in the box in which the first component is denser than a level: the sum of these shares.
 [[nodiscard]] double volumeAbove(const TwoFluids& fluids, double level);
 
 /// A sphere, or a circle where all points have the same z, whose centre lies on the line through `axis` along
@@ -55,6 +58,22 @@ struct FittedCircle {
 };
 [[nodiscard]] FittedCircle fitOnLine(const std::vector<Vector<double>>& points, const Vector<double>& axis,
                                      const Vector<double>& direction);
+
+/// A node well inside the liquid, and one far outside.
+struct Probes {
+    Node liquid, other;
+};
+/// The mean of the densities of the first component at both: where the surface is.
+[[nodiscard]] double midLevel(const TwoFluids& fluids, const Probes& probes);
+/// Adds liquid, and takes as much of the other fluid, until the volume inside the mid level is the wanted one
+/// (nodes^3, in the box) to within a share, four times in a row. Returns the steps done.
+std::size_t addLiquidUntil(TwoFluids& fluids, const Probes& probes, double wanted, double tolerance,
+                           std::size_t limit);
+/// The last node of the box along all axes.
+[[nodiscard]] Node lastNode(const TwoFluids& fluids);
+/// The radius (nodes) of the cylinder that, between two spheres on its axis, has a volume (nodes^3).
+/// @param radii, gap nodes
+[[nodiscard]] double cylinderBetween(const std::array<double, 2>& radii, double gap, double volume);
 
 /// Makes steps until `value` changes by less than `tolerance` over `window` steps, or to the limit. Returns
 /// the steps done.

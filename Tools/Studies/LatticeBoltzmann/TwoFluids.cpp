@@ -44,15 +44,20 @@ TwoFluids::TwoFluids(const Box& box, std::vector<Solid> given, const FluidSettin
     findForces();
 }
 
-void TwoFluids::setEquilibrium(std::size_t site, const Densities& rho) {
+/// To first order in the velocity.
+void TwoFluids::setEquilibrium(std::size_t site, const Densities& rho, const Vector<double>& velocity) {
     for (std::size_t c = 0; c < 2; ++c) {
         components[c].density[site] = rho[c];
-        for (std::size_t i = 0; i < directions; ++i) components[c].moving[slot(i, site)] = weight(i) * rho[c];
+        for (std::size_t i = 0; i < directions; ++i)
+            components[c].moving[slot(i, site)] =
+                weight(i) * rho[c] * (1 + 3 * dot(vectorOf(velocities[i]), velocity));
     }
 }
 
 /// Which nodes are solid; rows of fluid; what is copied where in each step.
 void TwoFluids::layOut() {
+    slots.clear(), ghosts.clear(), spans.clear(), shells.clear(), shellNeighbours.clear();
+    links.clear(), movingLinks.clear();
     solidOf.assign(grid_.size(), -1);
     grid_.forEachNode([&](const Node& node) {
         for (std::size_t k = 0; k < solids.size(); ++k)

@@ -64,6 +64,13 @@ public:
     [[nodiscard]] double thrustThroughSide(std::size_t axis, bool isLast) const;
     /// The sum over the box of the pressure tensor: moving populations, and pairs of nodes.
     [[nodiscard]] PressureSums pressureSums() const;
+    /// Solids in other places, as many as before: for those that move through the lattice. A node that one
+    /// uncovers gets the mean of the fluid nodes beside it, at the solid's velocity. Then each component gets
+    /// back the mass that it is to have, in proportion to what is there, on all nodes where it prevails:
+    /// links that move make mass on one side of a solid and take it on the other, as the nodes that it covers
+    /// and uncovers do in return. Returns what was added to each.
+    /// @param wanted mass(), as it was before the solids moved for the first time
+    Densities moveSolids(std::vector<Solid> moved, const Densities& wanted);
     /// Multiplies the densities of each fluid node by what function(node) says.
     void scale(const std::function<Densities(const Node&)>& function);
 
@@ -99,7 +106,8 @@ private:
     void layOut();
     void addLinks(const Node& node);
     void addShell(const Node& node);
-    void setEquilibrium(std::size_t site, const Densities& rho);
+    void setEquilibrium(std::size_t site, const Densities& rho, const Vector<double>& velocity = {0, 0, 0});
+    void uncover(const Node& node, const std::vector<int>& before);
     void fillSlots();
     void stream();
     void streamSpan(const Span& span);
