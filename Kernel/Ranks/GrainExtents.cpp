@@ -6,8 +6,10 @@
 namespace pendular {
 
 void GrainExtents::add(const Vector<double>& position, double radius, double largest) {
-    const auto size = static_cast<std::size_t>(std::log2(largest / radius));
-    Extent& extent = ofSizes[std::min(size, ofSizes.size() - 1)];
+    const std::size_t size =
+        std::min(static_cast<std::size_t>(std::log2(largest / radius)), ofSizes.size() - 1);
+    used = std::max(used, size + 1);
+    Extent& extent = ofSizes[size];
     const auto each = [](const auto& choose, const Vector<double>& a, const Vector<double>& b) {
         return Vector<double>{choose(a.x, b.x), choose(a.y, b.y), choose(a.z, b.z)};
     };
@@ -19,7 +21,7 @@ void GrainExtents::add(const Vector<double>& position, double radius, double lar
 /// Round-off of positions and offsets must not lose a grain: a little farther is asked for.
 bool GrainExtents::areNear(const Vector<double>& position, double radius, double reach) const {
     const auto beyond = [](double x, double low, double high) { return std::max({low - x, x - high, 0.0}); };
-    return std::ranges::any_of(ofSizes, [&](const Extent& extent) {
+    return std::any_of(ofSizes.begin(), ofSizes.begin() + used, [&](const Extent& extent) {
         if (extent.largest == 0) return false;
         const double far = (radius + extent.largest + reach) * (1 + 1e-9);
         return squaredNorm(Vector<double>{beyond(position.x, extent.lowest.x, extent.highest.x),
@@ -28,9 +30,7 @@ bool GrainExtents::areNear(const Vector<double>& position, double radius, double
     });
 }
 
-bool GrainExtents::areEmpty() const {
-    return std::ranges::all_of(ofSizes, [](const Extent& extent) { return extent.largest == 0; });
-}
+bool GrainExtents::areEmpty() const { return used == 0; }
 
 /// m, to that image along the gradient of a shear which has slid least: the images beside it are asked for,
 /// too.

@@ -26,6 +26,7 @@ private:
         double largest = 0;  // m, radius; 0: there are none
     };
     std::array<Extent, 12> ofSizes;
+    std::size_t used = 0;  // so many of these, from the largest on: mostly one or two
 };
 
 /// By how much (m) images of a grain that is inside a periodic scene lie beside it; itself first.
