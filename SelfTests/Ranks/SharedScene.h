@@ -169,9 +169,11 @@ inline constexpr RankOptions cutsStay{}, cutsWander{.cutsWander = true};
 
 /// Runs the scene without ranks, for so many steps or more, until contacts have been listed five times, and
 /// on so many ranks, and compares. With cuts that wander grains change their rank at each list.
+/// @param isDilute perhaps no grain comes near to one of another rank
 template <class Make>
 void expectSameOnRanks(std::size_t leastSteps, Make&& make,
-                       std::initializer_list<std::size_t> rankCounts = {1, 2, 3, 4, 7}) {
+                       std::initializer_list<std::size_t> rankCounts = {1, 2, 3, 4, 7},
+                       bool isDilute = false) {
     std::uint64_t expected = 0;
     std::size_t grains = 0, steps = 0;
     std::vector<double> told;
@@ -194,7 +196,9 @@ void expectSameOnRanks(std::size_t leastSteps, Make&& make,
             EXPECT_TRUE(found.tellTheSame);
             EXPECT_EQ(found.counts.unequal, 0u);
             if (count == 1) continue;
-            EXPECT_GT(found.counts.asked, 0u);
+            if (!isDilute) {
+                EXPECT_GT(found.counts.asked, 0u);
+            }
             if (options.cutsWander) {
                 EXPECT_GT(found.counts.migrated, grains / 2);
             }

@@ -153,6 +153,7 @@ TEST(LongCompositionOnRanks, ofEachTwoFeatures) {
     fmt::print("pairs: {} are shared, {} after gather(), {} are refused on several ranks, {} end as on one\n",
                counts[0], counts[1], counts[2], counts[3]);
     EXPECT_GT(counts[0] + counts[1], 1500);
+    EXPECT_EQ(counts[2], 0);
 }
 
 }  // namespace
