@@ -6,7 +6,7 @@
 #   With --python also those of the Python module and its tests.
 #   With --view also those of the server of runs in the browser (Tools/View), with --page those of its page, with
 #   --browser a browser without a screen for its tests.
-#   With --hosts also other programs that examples take: finite elements.
+#   With --hosts also other programs that examples and studies take: finite elements, energies of surfaces.
 #   With --mpi also those for runs on several processes (PENDULAR_MPI), and their tests.
 #   With --clang also clang, with libFuzzer (presets asan-ubsan, tsan and fuzz), clang-format and clang-tidy.
 set -euo pipefail
@@ -88,7 +88,8 @@ fi
 if [[ $hosts == yes ]]; then
     packages+='
 python3-getfem||finite elements of the example Libraries/getfem_plate.py
-python3-scipy||its sparse matrices'
+python3-scipy||its sparse matrices
+evolver-nox|evolver|Surface Evolver, for the study ThreeGrains'
 fi
 if [[ $mpi == yes ]]; then
     packages+='
