@@ -1,4 +1,5 @@
 // Runs on several processes, started by mpirun.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -20,12 +21,14 @@ namespace fs = std::filesystem;
 constexpr std::string_view timed = "summary.csv";  // such files tell times of the clock
 const std::string program = (folders::binary / "SelfTests/rank-program").string() + " ";
 
-/// Of more ranks than there are processors, and by any user.
-std::string onRanks(int count) {
+/// Of more ranks than there are processors, and by any user. Where other programs take most of the time,
+/// ranks wait long for each other.
+/// @param longest s, that it may take
+std::string onRanks(int count, int longest = 120) {
     return fmt::format(
-        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 120 mpirun "
+        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout {} mpirun "
         "--oversubscribe -n {} ",
-        count);
+        longest, count);
 }
 
 std::size_t countOf(const std::string& text, const std::string& part) {
@@ -74,9 +77,9 @@ TEST_F(Mpi, runsOfAllKindsHaveTheFilesOfOneProcess) {
         const std::string own = (folders::binary / "SelfTests/shared-run").string() + " " + name + " ",
                           whole = in(name), onTwo = in(name + "2"), inParts = in(name + "23");
         go(own + whole, steps);
-        go(onRanks(2) + own + onTwo, steps);
-        go(onRanks(2) + own + inParts, steps / 2);
-        go(onRanks(3) + own + inParts, steps);
+        go(onRanks(2, 600) + own + onTwo, steps);
+        go(onRanks(2, 600) + own + inParts, steps / 2);
+        go(onRanks(3, 600) + own + inParts, steps);
         expectSameFiles(whole, onTwo, timed);
         expectSameFiles(whole, inParts, timed);
     }
