@@ -173,17 +173,23 @@ void bindDragLaws(py::module_& module) {
             return names;
         },
         "Names of the drag laws that add_fluid() takes.");
-    module.def("drag_force", &dragForce, py::arg("law"), py::arg("porosity"), py::arg("slip"),
-               py::arg("diameter"), py::kw_only(), py::arg("density"), py::arg("viscosity"),
-               "N: the drag of a law (model A) on a sphere (diameter, m) in a fluid (kg/m^3, Pa s) that goes "
-               "past it with this velocity between the grains (slip, m/s).");
+    module.def(
+        "drag_force", &dragForce, py::arg("law"), py::arg("porosity"), py::arg("slip"), py::arg("diameter"),
+        py::kw_only(), py::arg("density"), py::arg("viscosity"),
+        "N: the drag of a law (model A) on a sphere (diameter, m) among others (porosity, 1) in a fluid "
+        "(density, kg/m^3; viscosity, Pa s) that goes past it with this velocity between the grains "
+        "(slip, m/s).");
     module.def(
         "terminal_speed",
         [](double diameter, double grainDensity, double density, double viscosity, double gravity) {
             return terminalSpeed(diameter, grainDensity, {density, viscosity}, gravity);
         },
         py::arg("diameter"), py::arg("grain_density"), py::kw_only(), py::arg("density"),
-        py::arg("viscosity"), py::arg("gravity") = 9.81, comment("terminalSpeed"));
+        py::arg("viscosity"), py::arg("gravity") = 9.81,
+        comment("terminalSpeed",
+                "diameter: m; grain_density: kg/m^3; density, "
+                "viscosity: of the fluid, kg/m^3 and Pa s; gravity: "
+                "m/s^2."));
     module.def(
         "balanced_speed",
         [](const std::string& law, double porosity, double diameter, double grainDensity, double density,
@@ -192,7 +198,11 @@ void bindDragLaws(py::module_& module) {
                                  gravity);
         },
         py::arg("law"), py::arg("porosity"), py::arg("diameter"), py::arg("grain_density"), py::kw_only(),
-        py::arg("density"), py::arg("viscosity"), py::arg("gravity") = 9.81, comment("balancedSpeed"));
+        py::arg("density"), py::arg("viscosity"), py::arg("gravity") = 9.81,
+        comment("balancedSpeed",
+                "law: the name of a drag law; porosity: 1; diameter: of the grains, m; "
+                "grain_density: kg/m^3; density, viscosity: of the fluid, kg/m^3 and Pa s; gravity: "
+                "m/s^2."));
 }
 
 }  // namespace

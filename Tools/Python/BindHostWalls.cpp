@@ -68,7 +68,12 @@ void bindHostWalls(py::module_& module, SceneClass& scene) {
             },
             comment("HostWall::getImpulses"));
     scene.def("add_host_wall", &addHostWall, py::arg("species"), py::arg("mesh"),
-              py::arg("triangles") = py::none(), py::kw_only(), py::arg("scale") = 1.0, comment("HostWall"));
+              py::arg("triangles") = py::none(), py::kw_only(), py::arg("scale") = 1.0,
+              comment("HostWall",
+                      "species: of the surface; mesh: a file, "
+                      "or vertices (n, 3) with triangles; "
+                      "triangles: corners by their rows, (m, 3); "
+                      "scale: m of a unit of the file."));
 }
 
 }  // namespace pendular::python

@@ -64,7 +64,8 @@ void bindTime(SceneClass& scene) {
                 s.scene().setStepFor(error, speed);
                 return s.scene().getStepForError()->text();
             },
-            py::arg("error"), py::arg("speed") = py::none(), comment("Scene::setStepFor"))
+            py::arg("error"), py::arg("speed") = py::none(),
+            comment("Scene::setStepFor", "Returns what was found, in a few sentences."))
         .def(
             "accept_unstable_time_step", [](PythonScene& s) { s.scene().acceptUnstableTimeStep(); },
             comment("Scene::acceptUnstableTimeStep"))
