@@ -4,6 +4,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/RunError.h"
+#include "Kernel/State/StateArchive.h"
 
 namespace pendular {
 
@@ -39,5 +40,7 @@ void ColumnFlow::findPressure(const FluidGrid& grid, FluidFields& fields, const 
         drop += byDrag * grid.spacing().z;
     }
 }
+
+void ColumnFlow::visitState(StateArchive& archive) { archive.finite("pressureDrop", drop); }
 
 }  // namespace pendular

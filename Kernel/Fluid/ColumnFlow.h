@@ -21,6 +21,7 @@ public:
     void check(const FluidGrid& grid) const override;
     void findVelocity(const FluidGrid& grid, FluidFields& fields, double time) override;
     void findPressure(const FluidGrid& grid, FluidFields& fields, const Vector<double>& gravity) override;
+    void visitState(StateArchive& archive) override;
 
 private:
     FluidMaterial fluid;

@@ -8,6 +8,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Math/EigenConversion.h"
 #include "Kernel/Particles/GrainName.h"
 #include "Kernel/Particles/ParticleHandler.h"
@@ -49,16 +50,37 @@ void FluidPart::check(const StepContext& scene) {
             throw InputError(fmt::format(
                 "fluid: the grid has {} cells along {}, along which the scene is periodic; it may have one.",
                 cells.cells[axis], "xyz"[axis]));
+    const std::array begins{scene.box.lowest.x, scene.box.lowest.y, scene.box.lowest.z};
+    const std::array lowest{cells.lowest.x, cells.lowest.y, cells.lowest.z},
+        highest{cells.highest.x, cells.highest.y, cells.highest.z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double error = 1e-9 * lengths[axis];
+        if (!(lengths[axis] > 0) || (std::abs(lowest[axis] - begins[axis]) <= error &&
+                                     std::abs(highest[axis] - begins[axis] - lengths[axis]) <= error))
+            continue;
+        throw InputError(fmt::format(
+            "fluid: the grid goes from {:.6g} to {:.6g} m along {}, along which the scene is periodic; it "
+            "must go "
+            "from {:.6g} to {:.6g} m.",
+            lowest[axis], highest[axis], "xyz"[axis], begins[axis], begins[axis] + lengths[axis]));
+    }
+    if (scene.laws->grainsAreDiscs())
+        throw InputError("fluid: the drag laws are those of spheres, and grains are discs; take spheres.");
+}
+
+/// m: grains that have gone through a periodic face are brought back now and then only.
+static Vector<double> placeOf(const StepContext& step, const GrainReference& grain) {
+    return step.box.wrap(toVector(grain.getPosition()));
 }
 
 void FluidPart::requireInside(const StepContext& step, const GrainReference& grain) const {
-    const Vec3D p = grain.getPosition();
-    if (cells.contains({p.x(), p.y(), p.z()})) return;
+    const Vector<double> p = placeOf(step, grain);
+    if (cells.contains(p)) return;
     throw RunError(
         fmt::format("At time {:.6g} s fluid: {} is at ({:.6g}, {:.6g}, {:.6g}) m, outside the grid; make the "
                     "grid larger, or "
                     "take the grain out by an outlet.",
-                    step.time, nameOfGrain(step.grains(), grain.getId()), p.x(), p.y(), p.z()));
+                    step.time, nameOfGrain(step.grains(), grain.getId()), p.x, p.y, p.z));
 }
 
 void FluidPart::spreadGrains(StepContext& step) {
@@ -70,7 +92,7 @@ void FluidPart::spreadGrains(StepContext& step) {
         requireInside(step, grain);
         const double share = grain.getVolume() / cellVolume;
         const Vector<double> velocity = toVector(grain.getVelocity());
-        immersed.push_back({sharesAt(cells, toVector(grain.getPosition()))});
+        immersed.push_back({sharesAt(cells, placeOf(step, grain))});
         for (const CellShare& own : immersed.back().shares) {
             now.porosity[own.cell] -= own.share * share;
             now.solidFlux[own.cell] += own.share * share * velocity;
@@ -142,6 +164,17 @@ void FluidPart::prepare(StepContext& step) {
 
 void FluidPart::visitState(StateArchive& archive, StepContext& /*scene*/) {
     archive.finite("ledger", total);
+    archive.finite("dragOfStep", ofStep);
+    const auto visit = [&](const char* name, auto& field) {
+        archive.column<double>(name, field);
+        archive.require(field.size() == cells.size(), name, "has not one row for each cell");
+    };
+    visit("porosity", now.porosity);
+    visit("solidFlux", now.solidFlux);
+    visit("drag", now.drag);
+    visit("source", now.source);
+    visit("velocity", now.velocity);
+    visit("pressureGradient", now.pressureGradient);
     archive.value("asked", asked);
     archive.value("outside", outside);
     archive.group("host", [&] { host->visitState(archive); });

@@ -76,6 +76,9 @@ std::string fieldOf(std::string_view word) {
 }
 
 void readHead(const Lines& lines, MercuryRestart& state) {
+    if (lines.behind("idMixed"))
+        lines.refuse(
+            "values of pairs of species are not taken over; set them by getMixedObject() in the driver");
     const auto take = [&](std::string_view word, double& to) {
         if (const auto at = lines.behind(word)) to = lines.number(*at);
     };
@@ -115,6 +118,8 @@ GrainRow grainOf(const Lines& lines) {
     const auto species = lines.behind("indSpecies"), position = lines.behind("position"),
                velocity = lines.behind("velocity"), spin = lines.behind("angularVelocity"),
                radius = lines.behind("radius");
+    if (const auto at = lines.behind("invMass"); at && lines.number(*at) == 0)
+        lines.refuse("a grain is held (invMass 0), which is not taken over; set it up in the driver");
     if (!species || !position || !velocity || !radius)
         lines.refuse("this is no grain with the words position, velocity, radius and indSpecies");
     return {.radius = lines.number(*radius),

@@ -57,6 +57,19 @@ static void requireUnit(const char* which, const Vec3D& normal) {
 
 void GrainCopies::add(Passage passage) {
     const auto refuse = [](const char* why) { throw InputError(fmt::format("copies of grains: {}.", why)); };
+    for (const Vec3D& point : passage.points)
+        if (!point.allFinite()) refuse("a point of the faces is not finite");
+    if (passage.angle == 0) {
+        if (!passage.shift || !passage.velocity) refuse("a function of the shift or its velocity is empty");
+        const Vec3D shift = passage.shift(0);
+        if (!shift.allFinite()) refuse("the shift is not finite");
+        if (std::abs(shift.dot(passage.outwards[1])) > 1e-9 * passage.width)
+            refuse("the shift has a part along the normal; it must be along the faces");
+    }
+    const auto isAlong = [&](const Passage& other) {
+        return passage.outwards[1].cross(other.outwards[1]).norm() < 1e-9;
+    };
+    if (std::ranges::any_of(passages, isAlong)) refuse("there are faces with this normal already");
     if (passages.size() == Image().turns.size()) refuse("there are three pairs of faces already");
     if (!passages.empty() && (isFeeding() || passage.kind != Kind::Period))
         refuse(
@@ -181,6 +194,13 @@ bool GrainCopies::isNear(const Image& image, const Vec3D& own, const Vec3D& ther
 }
 
 void GrainCopies::check(const StepContext& scene) {
+    // A copy begins without what the contacts of its grain remember: only springs of friction can.
+    const ContactLayout& layout = scene.laws->layout;
+    if (!passages.empty() && (layout.interaction > 0 || layout.normalHistory > 0))
+        throw InputError(
+            "copies of grains: a law of this scene remembers more of a contact than springs of friction "
+            "(bridges, cohesion with hysteresis, plastic overlaps), which copies would not have; take laws "
+            "without.");
     for (const Passage& passage : passages)
         if (passage.angle == 0 && passage.width * (mostWidths - 1) < staysWithin * scene.largestReach)
             throw InputError(fmt::format(

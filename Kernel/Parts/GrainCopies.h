@@ -27,7 +27,10 @@ namespace pendular {
 ///
 /// Copies are grains in all outputs, counts and sums, also of the forces on walls (isCopy() tells), and where
 /// grains are inserted there must be room for their copies. What the springs of friction remember of two
-/// grains that touch is not handed to their copies: where both go through a face, they begin anew.
+/// grains that touch is not handed to their copies: where both go through a face, they begin anew, and while
+/// one has and the other has not, the forces of friction on both are not equal and opposite. Laws that
+/// remember more (bridges, plastic overlaps) are refused. Copies have no numbers of a driver's own columns,
+/// no temperatures and bonds; a radius or species that a hook changes is that of the grain alone.
 class GrainCopies : public StepPart {
 public:
     /// The scene repeats itself between two planes at these distances (m) along the unit normal, and the

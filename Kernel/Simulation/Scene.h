@@ -265,9 +265,7 @@ public:
     /// found, and when it throws. At set-up, when species, integrator, walls and grains are there.
     /// @param speed that of estimateOverlaps() if it is not given
     [[nodiscard]] StepForError stepForError(double error, std::optional<double> speed = {});
-    /// Takes the time step for an error (1) of collisions at a speed (m/s; that of estimateOverlaps() if it
-    /// is not given), which stepForError() finds. A step above the stability limit is accepted; the summary
-    /// says what was found.
+    /// Takes it. A step above the stability limit is accepted; the summary says what was found.
     void setStepFor(double error, std::optional<double> speed = {});
     /// What setStepFor() found, if the time step is still its own.
     [[nodiscard]] std::optional<StepForError> getStepForError() const;

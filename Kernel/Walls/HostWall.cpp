@@ -39,15 +39,31 @@ void HostWall::setVelocities(std::span<const Vec3D> velocities) {
     requireOneEach("velocities", velocities.size());
     MembraneState::Column checked;
     for (const Vec3D& velocity : velocities)
-        checked.push_back(checkedVector("HostWall", "velocity of a vertex", velocity, "m/s"));
+        checked.push_back(
+            checkedVector("HostWall", fmt::format("velocity of vertex {}", checked.size()), velocity, "m/s"));
+    requireAlikeWhereJoined(checked);
     changed().velocity = std::move(checked);
     changed().impulse.assign(velocities.size(), {0, 0, 0});
+}
+
+/// Vertices that a period joins are one.
+void HostWall::requireAlikeWhereJoined(const MembraneState::Column& velocities) const {
+    for (const MembraneNet::Copy& copy : getNet().copies()) {
+        const Vector<double>&one = velocities[copy.of], &other = velocities[copy.vertex];
+        if (norm(one - other) > 1e-9 * (norm(one) + norm(other)))
+            throw InputError(fmt::format(
+                "HostWall: vertices {} and {} are the same one in a periodic scene, and have velocities of "
+                "({:.6g}, {:.6g}, {:.6g}) and ({:.6g}, {:.6g}, {:.6g}) m/s; give both the same.",
+                copy.of, copy.vertex, one.x, one.y, one.z, other.x, other.y, other.z));
+    }
 }
 
 void HostWall::setTargets(std::span<const Vec3D> places, double time) {
     requireOneEach("places", places.size());
     checkValue("HostWall", "time", time, "s", positive);
     std::vector<Vec3D> velocities;
+    for (std::size_t v = 0; v < places.size(); ++v)
+        static_cast<void>(checkedVector("HostWall", fmt::format("place of vertex {}", v), places[v], "m"));
     for (std::size_t v = 0; v < places.size(); ++v)
         velocities.emplace_back((places[v] - getPosition(v)) / time);
     setVelocities(velocities);

@@ -62,6 +62,7 @@ private:
 
     void begin(std::span<const Vector<double>> vertices, std::span<const Corners> triangles);
     void requireOneEach(std::string_view what, std::size_t given) const;
+    void requireAlikeWhereJoined(const MembraneState::Column& velocities) const;
     [[nodiscard]] std::vector<Vec3D> listed(MembraneState::Column MembraneState::*column) const;
 };
 

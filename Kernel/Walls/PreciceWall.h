@@ -33,9 +33,10 @@ template <class Participant>
 class PreciceWall {
 public:
     /// Tells preCICE the vertices and initialises it: once the wall is where it begins. Both must outlive
-    /// this. Throws InputError where coupling is implicit or the mesh is not of three dimensions.
+    /// this; displacements are those from the shape as it was set. Throws InputError where the mesh is not of
+    /// three dimensions.
     PreciceWall(Participant& of, HostWall& moved, PreciceNames given)
-        : participant(of), wall(moved), names(std::move(given)), begin(wall.getPositions()) {
+        : participant(of), wall(moved), names(std::move(given)), begin(placesAsSet(wall)) {
         if (const int dimensions = participant.getMeshDimensions(names.mesh); dimensions != 3)
             throw InputError(fmt::format("preCICE: the mesh {} has {} dimensions; a HostWall needs 3.",
                                          names.mesh, dimensions));
@@ -49,9 +50,15 @@ public:
     [[nodiscard]] bool isOngoing() { return participant.isCouplingOngoing(); }
 
     /// Where a window begins, the wall gets its way in it. @param step s, of the grains; windows must be
-    /// multiples of it
+    /// multiples of it. Throws InputError where they are not, where the step changes in a window and where
+    /// coupling is implicit.
     void beforeStep(double step) {
+        if (left > 0 && step != stepOfWindow)
+            throw InputError(fmt::format(
+                "preCICE: the time step has gone from {:.6g} to {:.6g} s in a window; take a fixed one.",
+                stepOfWindow, step));
         if (left > 0) return;
+        stepOfWindow = step;
         if (participant.requiresWritingCheckpoint())
             throw InputError(
                 "preCICE: the coupling is implicit, for which the grains cannot go back; take "
@@ -82,6 +89,12 @@ public:
     }
 
 private:
+    /// m: of a run that goes on the wall has moved from there.
+    static std::vector<Vec3D> placesAsSet(const HostWall& wall) {
+        std::vector<Vec3D> places;
+        for (const Vector<double>& vertex : wall.getNet().vertices()) places.push_back(toEigen(vertex));
+        return places;
+    }
     static std::vector<double> flat(const std::vector<Vec3D>& vectors) {
         std::vector<double> numbers;
         for (const Vec3D& vector : vectors)
@@ -94,8 +107,8 @@ private:
     PreciceNames names;
     std::vector<Vec3D> begin;  // m
     std::vector<int> ids;
-    double window = 0;     // s
-    std::size_t left = 0;  // steps of it
+    double window = 0, stepOfWindow = 0;  // s
+    std::size_t left = 0;                 // steps of it
 };
 
 }  // namespace pendular

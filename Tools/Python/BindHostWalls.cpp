@@ -63,7 +63,7 @@ void bindHostWalls(py::module_& module, SceneClass& scene) {
         .def_property_readonly(
             "vertex_impulses",
             [](const WallHandle& w) {
-                MembraneState::Column rows = hostWall(w).state().impulse;
+                MembraneState::Column rows = w.seen<HostWall>("vertices that a host moves").state().impulse;
                 return arrayOf(std::move(rows));
             },
             comment("HostWall::getImpulses"));

@@ -27,16 +27,27 @@ py::array cornersOf(const std::vector<Triangle>& triangles) {
     return arrayOf(std::move(corners)).attr("reshape")(count, 3, 3);
 }
 
+/// Throws InputError where another program moves the vertices.
+Membrane& ownMembrane(const WallHandle& wall, std::string_view what) {
+    auto& membrane = wall.as<Membrane>(what);
+    if (membrane.isOfHost())
+        throw InputError(
+            fmt::format("wall {}: it is a host wall, which has no {} of its own; move its vertices by "
+                        "set_vertex_velocities() or set_vertex_targets().",
+                        wall.number, what));
+    return membrane;
+}
+
 /// The vertices for which a function of Python is true.
 void hold(const WallHandle& wall, const py::function& where, const Vec3D& velocity) {
-    wall.as<Membrane>("vertices")
+    ownMembrane(wall, "vertices")
         .hold([&](const Vec3D& place) { return wall.owner->ask([&] { return where(place).cast<bool>(); }); },
               velocity);
 }
 
 template <class Of>
 py::array vertices(const WallHandle& wall, Of&& of) {
-    const Membrane& membrane = wall.as<Membrane>("vertices");
+    const auto& membrane = wall.seen<Membrane>("vertices");
     std::vector<Vector<double>> rows;
     for (std::size_t k = 0; k < membrane.getNet().vertices().size(); ++k)
         rows.push_back(toVector(of(membrane, k)));
@@ -45,7 +56,7 @@ py::array vertices(const WallHandle& wall, Of&& of) {
 
 py::array triangles(const WallHandle& wall) {
     std::vector<std::int64_t> corners;
-    for (const auto& triangle : wall.as<Membrane>("triangles").getNet().triangles())
+    for (const auto& triangle : wall.seen<Membrane>("triangles").getNet().triangles())
         corners.insert(corners.end(), triangle.begin(), triangle.end());
     const auto count = static_cast<py::ssize_t>(corners.size() / 3);
     return arrayOf(std::move(corners), {count, 3});
@@ -93,17 +104,17 @@ void bindMembranes(py::module_& module, SceneClass& scene) {
     auto wall = py::class_<WallHandle>(module.attr("Wall"));
     wall.def("hold", &hold, py::arg("where"), py::arg("velocity") = Vec3D(0, 0, 0), comment("Membrane::hold"))
         .def(
-            "hold_rim", [](const WallHandle& w, const Vec3D& v) { w.as<Membrane>("rim").holdRim(v); },
+            "hold_rim", [](const WallHandle& w, const Vec3D& v) { ownMembrane(w, "rim").holdRim(v); },
             py::arg("velocity") = Vec3D(0, 0, 0),
             comment("Membrane::holdRim", "velocity: m/s, with which they move from now on."))
         .def(
-            "set_pressure", [](const WallHandle& w, double p) { w.as<Membrane>("pressure").setPressure(p); },
+            "set_pressure", [](const WallHandle& w, double p) { ownMembrane(w, "pressure").setPressure(p); },
             py::arg("pressure"),
             "A pressure on the membrane, also in a run: it acts from the end of the next step on.\n\n"
             "pressure: Pa, pushes along the normals (of corners that run counter-clockwise towards the "
             "eye); negative against them.")
         .def_property_readonly(
-            "volume", [](const WallHandle& w) { return w.as<Membrane>("volume").getVolume(); },
+            "volume", [](const WallHandle& w) { return w.seen<Membrane>("volume").getVolume(); },
             comment("Membrane::getVolume"))
         .def_property_readonly(
             "vertices",
@@ -127,7 +138,7 @@ void bindMembranes(py::module_& module, SceneClass& scene) {
             "N, N x 3: of the grains on each vertex, at the end of the last step.")
         .def_property_readonly(
             "elastic_energy",
-            [](const WallHandle& w) { return w.as<Membrane>("springs").getElasticEnergy(); }, "J")
+            [](const WallHandle& w) { return w.seen<Membrane>("springs").getElasticEnergy(); }, "J")
         .def("keep_wear", &keepWear, py::arg("law"), py::arg("interval") = py::none(),
              py::arg("acceleration") = 1.0,
              "Counts what grains wear off each triangle of a mesh, by a law: reye (factor, m^3/J), archard "

@@ -26,9 +26,13 @@ public:
 
     /// Those of one grain.
     const double* operator()(std::size_t identity) {
-        if (rows.empty() || identity <= last) rows = ofAll(), next = rows.data();
+        // Identities grow within a frame, and a frame has all grains.
+        if (at >= rows.size() || identity <= last) {
+            rows = ofAll();
+            at = 0;
+        }
         last = identity;
-        return std::exchange(next, next + width);
+        return &rows[std::exchange(at, at + static_cast<std::size_t>(width))];
     }
 
 private:
@@ -51,8 +55,7 @@ private:
     std::shared_ptr<py::function> make;
     py::ssize_t width;
     std::vector<double> rows;
-    const double* next = nullptr;
-    std::size_t last = 0;
+    std::size_t at = 0, last = 0;  // the next number of the rows; the identity of the last grain
 };
 
 using Functions = std::map<std::string, py::function>;

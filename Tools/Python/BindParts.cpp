@@ -30,6 +30,11 @@ public:
     }
     void visitState(StateArchive& archive, StepContext& /*step*/) override {
         scene.ask([&] {
+            if (py::hasattr(object(), "remembered") && !py::isinstance<py::dict>(object().attr("remembered")))
+                throw InputError(
+                    fmt::format("{}: remembered is no dict, to which numbers of a restart file "
+                                "could be given back; make it one.",
+                                called));
             if (py::hasattr(object(), "remembered"))
                 visitNumbers(archive, object().attr("remembered"), called + ".remembered");
         });

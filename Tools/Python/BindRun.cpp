@@ -65,7 +65,12 @@ void bindTime(SceneClass& scene) {
                 return s.scene().getStepForError()->text();
             },
             py::arg("error"), py::arg("speed") = py::none(),
-            comment("Scene::setStepFor", "Returns what was found, in a few sentences."))
+            "The time step for an error (1) of collisions at a speed (m/s; by default the largest that the "
+            "scene is about to have): collisions of two grains are computed with steps of many lengths, and "
+            "the "
+            "longest that is exact enough is taken. One above the stability limit is accepted; the summary "
+            "says what was found. At set-up, when species, integrator, walls and grains are there.\n\n"
+            "error: from 0.0001 to 0.1; speed: m/s. Returns what was found, in a few sentences.")
         .def(
             "accept_unstable_time_step", [](PythonScene& s) { s.scene().acceptUnstableTimeStep(); },
             comment("Scene::acceptUnstableTimeStep"))

@@ -213,6 +213,8 @@ template <class Simulation>
 class Hosted : public Simulation, public PythonScene {
 public:
     using PythonScene::scene;
+    /// What is left of the run is written while the parts of Python are still there.
+    ~Hosted() override { this->completeLeftRun(); }
     [[nodiscard]] Scene& scene() final { return *this; }
     void setGrainsAreDiscs() final { this->speciesHandler.setGrainsAreDiscs(); }
 

@@ -20,6 +20,14 @@ struct WallHandle : Handle {
         if (auto* const found = dynamic_cast<Kind*>(&wall)) return *found;
         refuse(what, wall.isRemoved());
     }
+    /// The same for what only looks at it, also from a function that may not change the scene.
+    template <class Kind>
+    [[nodiscard]] const Kind& seen(std::string_view what) const {
+        owner->requireThisThread();
+        const Wall& wall = owner->scene().wallHandler.getObject(number);
+        if (const auto* const found = dynamic_cast<const Kind*>(&wall)) return *found;
+        refuse(what, wall.isRemoved());
+    }
     [[nodiscard]] Wall& wall() const {
         owner->requireThisThread();
         return owner->scene().wallHandler.getObject(number);

@@ -142,10 +142,13 @@ public:
         MPI_Request all = MPI_REQUEST_NULL;
         MPI_Ibarrier(failures, &all);
         double waited = 0;
-        const double begin = MPI_Wtime();
+        double begin = MPI_Wtime();
         for (int isThere = 0; MPI_Test(&all, &isThere, MPI_STATUS_IGNORE), isThere == 0; sched_yield()) {
             const bool before = hasFailed;
-            if (const std::string sentence = failure(); !sentence.empty() && !before) news = sentence;
+            if (const std::string sentence = failure(); !sentence.empty() && !before) {
+                news = sentence;
+                begin = MPI_Wtime();  // from now on the others come here, too
+            }
             waited = MPI_Wtime() - begin;
             if (hasFailed && waited > patience) abort(news.empty() ? told : news);
         }
