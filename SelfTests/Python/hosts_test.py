@@ -206,3 +206,35 @@ def test_ball_on_a_plate_of_a_library():
     plate, ball = FinitePlate(), Ball()
     time, force, velocity, *_ = hit(plate, ball, steps_between=4, steps_in_hertz_time=1000)
     assert velocity[-1] / ball.speed == pytest.approx(0.193233, rel=0.03)
+
+
+def test_grains_go_through_a_periodic_face_in_a_fluid():
+    """Two alike but for a period get the same of the fluid, also the one that has left the box on its way."""
+    ends = []
+    for x in (0.0199, 0.0101):
+        scene = pendular.Scene()
+        glass = scene.add_species("HertzianViscoelastic", density=2500, young_modulus=1e7, poisson_ratio=0.3,
+                                  restitution_coefficient=0.5)
+        scene.time_step = 1e-5
+        scene.set_periodic("x", 0, 0.02)
+        scene.set_periodic("y", 0, 0.02)
+        scene.add_grains(glass, [[x, 0.01, 0.02]], 0.002, velocity=[[0.5, 0, 0]])
+        scene.add_fluid((0, 0, 0), (0.02, 0.02, 0.06), (1, 1, 4), superficial_speed=0.1, **WATER)
+        scene.run(steps=100)
+        ends.append(scene.velocity[0])
+    assert ends[0] == pytest.approx(ends[1], rel=1e-12)
+    with pytest.raises(pendular.InputError, match="it must go from 0 to 0.02 m"):
+        scene = pendular.Scene()
+        glass = scene.add_species("LinearViscoelastic", density=2500, stiffness=100, dissipation=0)
+        scene.add_grains(glass, [[0.01, 0.01, 0.02]], 0.002)
+        scene.time_step = 1e-5
+        scene.set_periodic("x", 0, 0.02)
+        scene.add_fluid((-0.01, 0, 0), (0.03, 0.02, 0.06), (1, 1, 4), superficial_speed=0.1, **WATER)
+        scene.run(steps=1)
+
+
+def test_a_host_has_the_vertices_to_itself():
+    _, wall = ball_on_plate()
+    for call in (lambda: wall.set_pressure(1.0), lambda: wall.hold(lambda p: True), wall.hold_rim):
+        with pytest.raises(pendular.InputError, match="it is a host wall"):
+            call()

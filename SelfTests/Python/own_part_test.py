@@ -1,5 +1,7 @@
 """A part of the step whose phases are functions of Python: still air, against its closed form."""
 import gc
+import subprocess
+import sys
 import weakref
 
 import numpy as np
@@ -156,3 +158,42 @@ def test_bodies_that_are_held_in_part():
     scene.run(steps=100)
     velocity = scene.bodies()["velocity_m_per_s"][0]
     assert velocity == pytest.approx([-scene.time, 0, 0], rel=1e-9, abs=0)
+
+
+def test_a_script_may_end_before_its_run(tmp_path):
+    """The summary is written at the end of the process, and asks the part for its rows."""
+    script = tmp_path / "script.py"
+    script.write_text("""
+import pendular
+class Part:
+    name = "own"
+    def summary(self):
+        return {"rows": 1}
+s = pendular.Scene("run")
+m = s.add_species("LinearViscoelastic", density=2500, stiffness=100, dissipation=0)
+s.add_grains(m, [[0, 0, 0]], 1e-3)
+s.time_step = 2e-6
+s.write_summary()
+s.add_part(Part())
+s.run(steps=1)
+""")
+    ended = subprocess.run([sys.executable, script], cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    assert ended.returncode == 0, ended.stderr
+
+
+def test_what_it_remembers_is_a_dict():
+    class Part:
+        name = "own"
+        remembered = [1.0]
+
+        def prepare(self, scene, length):
+            pass
+
+    scene = pendular.Scene()
+    glass = scene.add_species("LinearViscoelastic", density=2500, stiffness=100, dissipation=0)
+    scene.add_grains(glass, [[0, 0, 0]], 1e-3)
+    scene.time_step = 2e-6
+    scene.add_part(Part())
+    scene.run(steps=1)
+    with pytest.raises(pendular.InputError, match="remembered is no dict"):
+        scene.write_restart("restart.h5")
