@@ -442,5 +442,43 @@ TEST(MercuryPrograms, copiesSayWhatTheyAreNotFor) {
     EXPECT_TRUE(isOneSentence(refusal([&] { SubcriticalMaserBoundary().set(Vec3D(1, 0, 0), 1, 0); })));
 }
 
+// A copy would stand without the bridge of its grain, and momentum would not be kept.
+TEST(MercuryCopies, areRefusedForLawsThatRememberMoreThanFriction) {
+    Simulation<HertzianViscoelasticLiquidBridgeWillettSpecies> scene;
+    scene.setQuiet();
+    HertzianViscoelasticLiquidBridgeWillettSpecies species;
+    species.setDensity(2500);
+    species.setElasticModulusAndPoissonRatio(1e7, 0.3);
+    species.setRestitutionCoefficient(0.5);
+    species.setLiquidBridgeVolume(1e-12);
+    species.setContactAngle(0.1);
+    species.setSurfaceTension(0.07);
+    SphericalParticle grain(scene.speciesHandler.copyAndAddObject(species));
+    grain.setRadius(1e-3);
+    scene.particleHandler.copyAndAddObject(grain);
+    scene.addPart<GrainCopies>().addPeriod({1, 0, 0}, -2e-3, 2e-3);
+    scene.setTimeStep(1e-6);
+    const std::string said = refusal([&] { scene.initialise(); });
+    EXPECT_TRUE(isOneSentence(said) && contains(said, "remembers more of a contact")) << said;
+}
+
+TEST(MercuryCopies, haveFacesThatFitEachOther) {
+    const auto said = [](auto&& add) {
+        return refusal([&] {
+            GrainCopies copies;
+            add(copies);
+        });
+    };
+    const std::string along = said([](GrainCopies& c) { c.addPeriod({1, 0, 0}, 0, 1, {0.1, 0, 0}); });
+    const std::string twice = said([](GrainCopies& c) {
+        c.addPeriod({1, 0, 0}, 0, 1);
+        c.addPeriod({-1, 0, 0}, 0, 1);
+    });
+    const std::string empty = said([](GrainCopies& c) { c.addPeriod({1, 0, 0}, 0, 1, nullptr, nullptr); });
+    EXPECT_TRUE(isOneSentence(along) && contains(along, "along the normal")) << along;
+    EXPECT_TRUE(isOneSentence(twice) && contains(twice, "this normal already")) << twice;
+    EXPECT_TRUE(isOneSentence(empty) && contains(empty, "is empty")) << empty;
+}
+
 }  // namespace
 }  // namespace pendular::mercuryCopiesTest
