@@ -60,8 +60,7 @@ void FluidPart::check(const StepContext& scene) {
             continue;
         throw InputError(fmt::format(
             "fluid: the grid goes from {:.6g} to {:.6g} m along {}, along which the scene is periodic; it "
-            "must go "
-            "from {:.6g} to {:.6g} m.",
+            "must go from {:.6g} to {:.6g} m.",
             lowest[axis], highest[axis], "xyz"[axis], begins[axis], begins[axis] + lengths[axis]));
     }
     if (scene.laws->grainsAreDiscs())

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "Kernel/Base/FullStop.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Files/FileLock.h"
@@ -16,14 +17,6 @@
 // The course of a run from its begin to its end, in one part or several.
 
 namespace pendular {
-
-namespace {
-
-std::string_view withoutFullStop(std::string_view sentence) {
-    return sentence.substr(0, sentence.size() - (sentence.ends_with('.') ? 1 : 0));
-}
-
-}  // namespace
 
 struct Run::Course {
     RunControl control;  // hears signals from here on

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "Kernel/Base/FullStop.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Motion/SceneLimits.h"
@@ -169,7 +170,7 @@ public:
                 throw InputError(
                     fmt::format("setStepFor: at {:.4g} m/s a collision of species {} with {} cannot "
                                 "be computed; give a lower speed or stiffer grains ({}).",
-                                speed, meeting.species1, meeting.species2, withoutStop(error)));
+                                speed, meeting.species1, meeting.species2, withoutFullStop(error.what())));
             }
             anyParts |= at.exact.parted;
             // Bodies that stay together have no time of a contact.
@@ -223,12 +224,6 @@ public:
     [[nodiscard]] double stepsAt(double step) const { return contactTime / step; }
 
 private:
-    static std::string withoutStop(const RunError& error) {
-        std::string text = error.what();
-        if (text.ends_with('.')) text.pop_back();
-        return text;
-    }
-
     static constexpr double stepsOfExact = 2000, fewestSteps = 5, mostSteps = 1000;
     static constexpr int lengths = 4, beginnings = 16;
 

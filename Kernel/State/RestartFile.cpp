@@ -11,6 +11,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "Kernel/Base/FullStop.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Files/OwnFile.h"
 #include "Kernel/Files/WrittenBeside.h"
@@ -135,10 +136,9 @@ void writeRestartFile(const fs::path& path, const std::function<void(StateArchiv
         syncFolderOf(path);
     } catch (const std::exception& problem) {
         fs::remove(beside, ignored);
-        std::string_view reason = problem.what();
-        if (reason.ends_with('.')) reason.remove_suffix(1);
-        throw InputError(fmt::format(
-            "{}{}.", reason, fs::exists(path, ignored) ? "; the restart file of before is kept" : ""));
+        throw InputError(
+            fmt::format("{}{}.", withoutFullStop(problem.what()),
+                        fs::exists(path, ignored) ? "; the restart file of before is kept" : ""));
     }
 }
 

@@ -13,6 +13,7 @@
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "SelfTests/Scenes/CubicLattice.h"
 #include "SelfTests/Scenes/ShearedCloud.h"
 #include "SelfTests/Support/CsvRows.h"
 #include "SelfTests/Support/Refusal.h"
@@ -157,8 +158,7 @@ public:
         for (int k = 0; k < edge * edge * edge; ++k) {
             SphericalParticle grain;
             grain.setSpecies(species), grain.setRadius(0.3 * spacing);
-            grain.setPosition(spacing *
-                              Vec3D(k % edge + 0.5, k / edge % edge + 0.5, k / (edge * edge) + 0.5));
+            grain.setPosition(scenes::cellOfCube(k, edge, spacing));
             if (motion != Motion::Strained) grain.setVelocity(shearFlowAt(grain.getPosition()));
             particleHandler.copyAndAddObject(grain);
         }

@@ -5,6 +5,7 @@
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Periodic/PlainShearedSpheres.h"
+#include "SelfTests/Scenes/CubicLattice.h"
 #include "SelfTests/Support/Random.h"
 
 namespace pendular::shearedGrainsTest {
@@ -24,8 +25,7 @@ public:
             SphericalParticle grain;
             grain.setSpecies(species);
             grain.setRadius(0.5);
-            grain.setPosition(spacing *
-                              Vec3D(k % edge + 0.5, k / edge % edge + 0.5, k / (edge * edge) + 0.5));
+            grain.setPosition(scenes::cellOfCube(k, edge, spacing));
             grain.setVelocity(this->shearFlowAt(grain.getPosition()) + random.inCube(0.8 * rate));
             this->particleHandler.copyAndAddObject(grain);
         }

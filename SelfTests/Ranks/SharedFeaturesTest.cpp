@@ -3,6 +3,7 @@
 
 #include "Kernel/Sizes/SizeLaws.h"
 #include "SelfTests/Periodic/PavedFloor.h"
+#include "SelfTests/Ranks/SharedInlets.h"
 #include "SelfTests/Ranks/SharedScene.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Scenes/ShearedCloud.h"
@@ -173,21 +174,10 @@ TEST(SharedFeatures, inlets) {
                       {3});
 }
 
-/// Clumps of two spheres and grains come together, between the parts of ranks, too.
+/// Also between the parts of ranks.
 template <class S>
 void letClumpsIn(S& scene) {
-    Clump rod(ClumpTemplate({{{0, 0, -0.4}, 0.5}, {{0, 0, 0.4}, 0.5}}));
-    rod.setSpecies(scene.speciesHandler.getObject(0));
-    SphericalParticle grain;
-    grain.setSpecies(scene.speciesHandler.getObject(0));
-    BodyMixture mixture;
-    mixture.add(rod, evenSizes(1.0e-3, 1.2e-3), 2);
-    mixture.add(grain, evenSizes(1.0e-3, 1.2e-3), 1);
-    Inlet inlet;
-    inlet.setBodies(mixture);
-    inlet.setRegion(BoxRegion({0.001, 0.001, 0.0063}, {0.0115, 0.0115, 0.009}));
-    inlet.setNumberFlow(3000);
-    scene.inletHandler.copyAndAddObject(inlet);
+    ranks::letClumpsIn(scene, 0.0063, 0.009, 3000);
     scene.setTimeStep(0x1p-18);
 }
 

@@ -3,7 +3,9 @@
 
 #include "Kernel/Sizes/SizeLaws.h"
 #include "SelfTests/Liquid/WetScenes.h"
+#include "SelfTests/Ranks/SharedInlets.h"
 #include "SelfTests/Ranks/SharedScene.h"
+#include "SelfTests/Scenes/CubicLattice.h"
 #include "SelfTests/Support/Random.h"
 
 namespace pendular::sharedLiquidTest {
@@ -89,17 +91,8 @@ void letWetGrainsIn(Box& scene) {
 
 TEST(SharedLiquid, comesWithGrains) { expectSameOnRanks(800, box<Box>(4, letWetGrainsIn), {2, 3, 7}); }
 
-/// Droplets that are caught by grains, by walls and by the end of their flight, whose momentum counts.
 void spray(Box& scene) {
-    Spray rain;
-    rain.setRain({0.006, 0.006, 0.0145}, {0.010, 0, 0}, {0, 0.010, 0}, {0.3, 0, -1});
-    rain.setDropletRadius(5e-5);
-    rain.setVolumeSpread(0.3);
-    rain.setSpeed(5);
-    rain.setFlow(40000 * rain.dropletVolume());
-    rain.setMomentum(1000);
-    rain.setLongestFlight(0.0022);
-    scene.sprayHandler.copyAndAddObject(rain);
+    scene.sprayHandler.copyAndAddObject(ranks::rainFrom(0.0145));
     scene.setTimeMax(0.01);
 }
 
@@ -153,8 +146,7 @@ public:
             SphericalParticle grain;
             grain.setSpecies(wet);
             grain.setRadius(random.uniform(0.9e-3, 1.03e-3));
-            grain.setPosition(spacing *
-                              Vec3D(k % edge + 0.5, k / edge % edge + 0.5, k / (edge * edge) + 0.5));
+            grain.setPosition(scenes::cellOfCube(k, edge, spacing));
             grain.setLiquidVolume(1e-12 + 1e-15 * k);
             particleHandler.copyAndAddObject(grain);
         }

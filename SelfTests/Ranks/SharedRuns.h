@@ -14,6 +14,7 @@
 #include "Kernel/Parts/HeatPart.h"
 #include "Kernel/Sizes/SizeLaws.h"
 #include "SelfTests/Liquid/WetScenes.h"
+#include "SelfTests/Ranks/SharedInlets.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 
 /// Runs with files that ranks share, as threads of a test and as processes.
@@ -98,18 +99,7 @@ public:
 class ClumpRun : public RichRun {
 public:
     ClumpRun(const std::filesystem::path& folder, std::size_t steps) : RichRun(folder, steps, 8) {
-        Clump rod(ClumpTemplate({{{0, 0, -0.4}, 0.5}, {{0, 0, 0.4}, 0.5}}));
-        rod.setSpecies(speciesHandler.getObject(0));
-        SphericalParticle grain;
-        grain.setSpecies(speciesHandler.getObject(0));
-        BodyMixture mixture;
-        mixture.add(rod, evenSizes(1.0e-3, 1.2e-3), 2);
-        mixture.add(grain, evenSizes(1.0e-3, 1.2e-3), 1);
-        Inlet inlet;
-        inlet.setBodies(mixture);
-        inlet.setRegion(BoxRegion({0.001, 0.001, 0.0186}, {0.0115, 0.0115, 0.0212}));
-        inlet.setNumberFlow(6000);
-        inletHandler.copyAndAddObject(inlet);
+        letClumpsIn(*this, 0.0186, 0.0212, 6000);
     }
 };
 
@@ -154,15 +144,7 @@ public:
         : RunWithFiles(folder, steps, "time_s,emitted_m3,airborne_m3,lost_m3,films_m3,z_m") {
         setLiquidDensity(1e6);
         setLiquidToCome(1e-9);  // the same quantum for a part of the run
-        Spray rain;
-        rain.setRain({0.006, 0.006, 0.0205}, {0.010, 0, 0}, {0, 0.010, 0}, {0.3, 0, -1});
-        rain.setDropletRadius(5e-5);
-        rain.setVolumeSpread(0.3);
-        rain.setSpeed(5);
-        rain.setFlow(40000 * rain.dropletVolume());
-        rain.setMomentum(1000);
-        rain.setLongestFlight(0.0022);
-        sprayHandler.copyAndAddObject(rain);
+        sprayHandler.copyAndAddObject(rainFrom(0.0205));
     }
 
 private:

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "Kernel/Simulation/StateHash.h"
+#include "SelfTests/Scenes/CubicLattice.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Random.h"
 
@@ -26,8 +27,7 @@ public:
             SphericalParticle grain;
             grain.setSpecies(species);
             grain.setRadius(random.uniform(0.9e-3, 1.03e-3));
-            grain.setPosition(spacing *
-                              Vec3D(k % edge + 0.5, k / edge % edge + 0.5, k / (edge * edge) + 0.5));
+            grain.setPosition(cellOfCube(k, edge, spacing));
             grain.setVelocity(this->shearFlowAt(grain.getPosition()) + random.inCube(0.1));
             this->particleHandler.copyAndAddObject(grain);
         }
