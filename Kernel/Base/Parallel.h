@@ -1,11 +1,12 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <exception>
 #include <limits>
 #include <vector>
+
+#include "Kernel/Base/OpenShares.h"
 
 namespace pendular {
 
@@ -73,10 +74,11 @@ void inParts(std::size_t count, int threads, Function&& function, std::size_t le
 inline std::size_t shareOf(std::size_t worth) { return sharesSmallWork() ? 4 : worth; }
 
 /// Calls function(part, begin, end) for consecutive shares of [0, count), which threads take as they come:
-/// each first those of its own part, from the front, then what others have left. A thread without a processor
-/// holds up the share that it has begun, and no more. A part is called many times, never twice at once.
-/// An exception of the first share that threw one is thrown on; where there are several parts, when all
-/// shares are done.
+/// each first those of its own part, from the front, then what others have left, from its back: so it is the
+/// same shares in each step that go to another thread, whose cache has them then. What comes from the cache
+/// of another core can take longer than all that is done with it. A thread without a processor holds up the
+/// share that it has begun, and no more. A part is called many times, never twice at once. An exception of
+/// the first share that threw one is thrown on; where there are several parts, when all shares are done.
 /// @param share how many are taken at once
 template <class Function>
 void inShares(std::size_t count, int threads, Function&& function, std::size_t least, std::size_t share) {
@@ -86,34 +88,29 @@ void inShares(std::size_t count, int threads, Function&& function, std::size_t l
         return;
     }
     struct alignas(64) Part {
-        std::atomic<std::size_t> next;
-        std::size_t end;
+        OpenShares shares;
         std::size_t failedAt = std::numeric_limits<std::size_t>::max();  // of its thread: where a share began
         std::exception_ptr failure;
     };
-    std::vector<Part> open(parts);
-    for (std::size_t k = 0; k < parts; ++k) {
-        open[k].next.store(count * k / parts, std::memory_order_relaxed);
-        open[k].end = count * (k + 1) / parts;
-    }
+    std::vector<Part> all(parts);
+    for (std::size_t k = 0; k < parts; ++k)
+        all[k].shares.cut(count * k / parts, count * (k + 1) / parts, share);
     forEachPart(parts, [&](std::size_t own) {
         for (std::size_t k = 0; k < parts; ++k) {
-            Part& part = open[(own + k) % parts];
-            while (part.next.load(std::memory_order_relaxed) < part.end) {
-                const std::size_t begin = part.next.fetch_add(share, std::memory_order_relaxed);
-                if (begin >= part.end) break;
+            OpenShares& shares = all[(own + k) % parts].shares;
+            while (const auto taken = k == 0 ? shares.takeFirst() : shares.takeLast()) {
                 try {
-                    function(static_cast<int>(own), begin, std::min(begin + share, part.end));
+                    function(static_cast<int>(own), taken->first, taken->second);
                 } catch (...) {
-                    if (begin < open[own].failedAt) {
-                        open[own].failedAt = begin;
-                        open[own].failure = std::current_exception();
+                    if (taken->first < all[own].failedAt) {
+                        all[own].failedAt = taken->first;
+                        all[own].failure = std::current_exception();
                     }
                 }
             }
         }
     });
-    const Part& first = *std::ranges::min_element(open, {}, &Part::failedAt);
+    const Part& first = *std::ranges::min_element(all, {}, &Part::failedAt);
     if (first.failure) std::rethrow_exception(first.failure);
 }
 

@@ -19,11 +19,6 @@ struct alignas(64) ForceTotal {
     Whole torque{};  // x, y, z; -
 
     [[nodiscard]] bool fits() const { return force[3] == 0; }
-    ForceTotal& operator+=(const ForceTotal& other) {
-        force += other.force;
-        torque += other.torque;
-        return *this;
-    }
 };
 
 /// The force and torque of all contacts of a grain; lane 3 has no meaning.

@@ -88,10 +88,11 @@ private:
     }
 
     /// The largest of function.operator()<remembers, isHeld>(k) over some grains, with the function inlined:
-    /// by itself g++ inlines none of this size that is called from two places.
+    /// by itself g++ inlines none of this size that is called from two places. Within the loop over shares it
+    /// would keep ten of its vectors in memory.
     template <bool remembers, bool isHeld, class Function, class PlaceOf>
-    [[gnu::flatten]] static double largestOf(const Function& function, std::size_t first, std::size_t end,
-                                             const PlaceOf& placeOf) {
+    [[gnu::flatten, gnu::noinline]] static double largestOf(const Function& function, std::size_t first,
+                                                            std::size_t end, const PlaceOf& placeOf) {
         const Function own = function;
         double most = 0;
         for (std::size_t k = first; k < end; ++k)

@@ -265,7 +265,8 @@ public:
     /// found, and when it throws. At set-up, when species, integrator, walls and grains are there.
     /// @param speed that of estimateOverlaps() if it is not given
     [[nodiscard]] StepForError stepForError(double error, std::optional<double> speed = {});
-    /// Takes it. A step above the stability limit is accepted; the summary says what was found.
+    /// Takes the time step that stepForError() finds. One above the stability limit is accepted; the summary
+    /// says what was found.
     void setStepFor(double error, std::optional<double> speed = {});
     /// What setStepFor() found, if the time step is still its own.
     [[nodiscard]] std::optional<StepForError> getStepForError() const;

@@ -2,11 +2,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <numeric>
 #include <set>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 #include "Kernel/Base/Parallel.h"
 
@@ -51,6 +53,41 @@ TEST(Threads, takeEachShareOnce) {
                     1, share);
                 for (const auto& times : done) ASSERT_EQ(times, 1);
             }
+}
+
+TEST(Threads, takeSharesFromBothEnds) {
+    OpenShares shares;
+    shares.cut(5, 32, 10);
+    EXPECT_EQ(shares.takeLast(), OpenShares::Share(25, 32));
+    EXPECT_EQ(shares.takeFirst(), OpenShares::Share(5, 15));
+    EXPECT_EQ(shares.takeFirst(), OpenShares::Share(15, 25));
+    EXPECT_FALSE(shares.takeFirst());
+    EXPECT_FALSE(shares.takeLast());
+}
+
+// Who has no share of its own left takes the last ones of another: it is the same ones each time.
+TEST(Threads, takeFromTheBackWhatOthersHaveLeft) {
+    constexpr std::size_t count = 1000, share = 10, half = count / 2;
+    for (int repeat = 0; repeat < 20; ++repeat) {
+        std::array<std::vector<std::size_t>, 2> taken;
+        std::atomic<std::size_t> done = 0;
+        inShares(
+            count, 2,
+            [&](int part, std::size_t begin, std::size_t end) {
+                taken.at(static_cast<std::size_t>(part)).push_back(begin);
+                done += end - begin;
+                while (part == 1 && done < count - share) std::this_thread::yield();
+            },
+            1, share);
+        for (std::size_t part = 0; part < 2; ++part) {
+            std::size_t next = part * half, last = count - part * half;
+            for (const std::size_t begin : taken.at(part)) {
+                const bool isOwn = begin / half == part;
+                EXPECT_EQ(begin, isOwn ? next : last - share);
+                isOwn ? next += share : last -= share;
+            }
+        }
+    }
 }
 
 // One that is held up in its first share, until all others are done, does not hold up those.
