@@ -50,7 +50,7 @@ hashes() {
 chosen=$(hashes "")
 echo "By itself: "$chosen
 if [[ ! -d $root/usr/lib/python3/dist-packages/pendular/x86-64-v2 ]]; then exit 0; fi  # the package of one machine
-levels=$(inside python3 -c 'import pendular._choose as c; print(*c.levels())')
+levels=$(inside python3 -c 'from pendular._choose import levels; print(*levels())')
 for level in $levels; do
     of_level=$(hashes "$level")
     echo "$level: "$of_level
