@@ -253,22 +253,18 @@ public:
     /// Where an account is kept for the wear of walls alone, contacts with walls have samples, and others do
     /// not: of all walls, as a contact may go over from one to another.
     void sampleWallsAlone() { samplesPairs = false; }
+    /// Blocks of eight contacts with walls.
+    [[nodiscard]] std::size_t wallBlockCount() const { return contacts.wallPoints.size(); }
     /// As forEachEnergyRecord(), for the contacts with walls, as they are listed.
+    /// @param first, end of the blocks that are visited
     template <class Function>
-    void forEachRecordAtWalls(const Grains& grains, Function&& function) {
-        for (const Bucket& bucket : contacts.buckets) {
-            if (bucket.wall < 0) continue;
-            for (std::uint32_t b = bucket.begin; b < bucket.end; ++b) {
-                if (contacts.slots[b] == ContactStore::asleep || contacts.slots[b] == ContactStore::waking)
-                    continue;
-                for (std::uint32_t lane = 0; lane < Pack::lanes; ++lane) {
-                    const auto contact = static_cast<std::uint32_t>(b * Pack::lanes + lane);
-                    EnergyRecord& record = contacts.memory.energies[contacts.slotOf(contact)];
-                    if (!record.now.acts() && !record.last.acts()) continue;
-                    showWallMotion(grains, bucket, contact, record);
-                    function(bucket, contacts.blocks[b], lane, record);
-                }
-            }
+    void forEachRecordAtWalls(const Grains& grains, std::size_t first, std::size_t end, Function&& function) {
+        for (std::size_t block = first; block < end; ++block) {
+            const std::size_t contact = (contacts.firstWallBlock() + block) * Pack::lanes;
+            const std::uint32_t slots = contacts.slots[contact / Pack::lanes];
+            if (slots == ContactStore::asleep || slots == ContactStore::waking) continue;
+            for (std::size_t lane = 0; lane < Pack::lanes; ++lane)
+                visitRecord(grains, static_cast<std::uint32_t>(contacts.slotOf(contact + lane)), function);
         }
     }
 

@@ -58,13 +58,19 @@ public:
     }
 
     /// The same where the account is kept for the wear of walls alone.
-    static void beginWear(Grains& grains) {
+    static void beginWear(Grains& grains, int threads) {
+        constexpr std::size_t worthAThread = 4096;
         grains.remembersStart = true;
         grains.atStart.resize(grains.size());
-        for (std::size_t place = 0; place < grains.size(); ++place) {
-            grains.atStart[place].velocity = grains.translation[place].velocity;
-            if (grains.hasSpin) grains.atStart[place].spin = grains.rotation[place].spin;
-        }
+        inParts(
+            grains.size(), threads,
+            [&](int, std::size_t first, std::size_t end) {
+                for (std::size_t place = first; place < end; ++place) {
+                    grains.atStart[place].velocity = grains.translation[place].velocity;
+                    if (grains.hasSpin) grains.atStart[place].spin = grains.rotation[place].spin;
+                }
+            },
+            worthAThread);
     }
 
     /// Membranes may have been added and removed in the run: what was stored in them came with them.
@@ -171,15 +177,24 @@ public:
 
     /// The same where the account is kept for the wear of walls alone, and contacts have samples at walls.
     static void finishWearAlone(const Grains& grains, ContactSystem& contacts, const WallHandler& walls,
-                                double step) {
+                                double step, int threads) {
+        constexpr std::size_t blocksWorthAThread = 32, share = 32;
         const std::vector<WornWall*> wornOf = wornWalls(walls);
         WearOfStep wear(wornOf);
-        WearOfStep::Own worn;
-        contacts.forEachRecordAtWalls(grains, [&](const Bucket& bucket, const ContactBlock& block,
+        std::vector<WearOfStep::Own> worn(static_cast<std::size_t>(threads));
+        inShares(
+            contacts.wallBlockCount(), threads,
+            [&](int part, std::size_t first, std::size_t end) {
+                contacts.forEachRecordAtWalls(grains, first, end,
+                                              [&](const Bucket& bucket, const ContactBlock& block,
                                                   std::size_t lane, EnergyRecord& record) {
-            accountOf({grains, contacts, walls, step}, wear, bucket, block, lane, record, worn);
-        });
-        wear.add(worn);
+                                                  accountOf({grains, contacts, walls, step}, wear, bucket,
+                                                            block, lane, record,
+                                                            worn[static_cast<std::size_t>(part)]);
+                                              });
+            },
+            blocksWorthAThread, shareOf(share));
+        for (const WearOfStep::Own& ofPart : worn) wear.add(ofPart);
         wear.give(contacts.ranks());
     }
 

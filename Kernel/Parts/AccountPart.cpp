@@ -26,7 +26,7 @@ void AccountPart::beforeMotion(StepContext& step) {
     const StepTimes::Within ledgers(step.times, StepTimes::Part::Ledger);
     step.contacts.renewGhosts(step.grains());  // a hook may have changed velocities
     if (kept) account.begin(step.grains(), step.contacts, step.walls, step.gravity, step.length, ledger);
-    else EnergyAccount::beginWear(step.grains());
+    else EnergyAccount::beginWear(step.grains(), step.threads);
 }
 
 void AccountPart::afterMotion(StepContext& step) {
@@ -39,7 +39,7 @@ void AccountPart::finish(StepContext& step) {
     if (kept)
         account.finish(step.grains(), step.contacts, step.walls, step.gravity, step.length, *step.scheme,
                        step.threads, ledger);
-    else EnergyAccount::finishWearAlone(step.grains(), step.contacts, step.walls, step.length);
+    else EnergyAccount::finishWearAlone(step.grains(), step.contacts, step.walls, step.length, step.threads);
     if (step.length > 0) EnergyAccount::finishWear(step.walls, step.time + step.length);
 }
 

@@ -190,7 +190,7 @@ void TriangleWall::finishStep(double time) {
     }
     for (const Note& note : noted) {
         const WornTriangles::Place place = worn->add(note.part, note.point, note.done);
-        if (moving) moving->add(worn->mesh().corners[place.triangle], place.weights, place.volume);
+        if (moving) moving->add(worn->mesh().corners[place.at.triangle], place.at.weights, place.volume);
     }
     noted.clear();
 }

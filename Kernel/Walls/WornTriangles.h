@@ -15,11 +15,15 @@ class WornTriangles {
 public:
     WornTriangles(const MeshTriangles& mesh, const WearLaw& wearLaw);
 
+    /// Where a point is.
+    struct Corners {
+        std::uint32_t triangle = 0;
+        std::array<double, 3> weights{};  // of its corners; they sum to 1
+    };
     /// The place at which a volume has been worn off.
     struct Place {
-        std::uint32_t triangle;
-        std::array<double, 3> weights;  // of its corners at the point; they sum to 1
-        double volume;                  // m^3
+        Corners at;
+        double volume;  // m^3
     };
 
     /// Takes in what a contact of a part does in a step, at a point (m, in the frame of the mesh): counted
@@ -41,15 +45,25 @@ public:
     void visitState(StateArchive& archive);
 
 private:
+    /// How the weights of a triangle's first two corners change with the point on its plane; both are zero at
+    /// its last corner.
+    struct Gradients {
+        Vector<double> first, second;  // 1/m
+        Vector<double> last;           // m
+    };
+    [[nodiscard]] Gradients gradientsOf(std::size_t number) const;
     /// The weights of a triangle's corners at the foot of a point on its plane; they sum to 1.
     [[nodiscard]] std::array<double, 3> weightsAt(std::size_t number, const Vector<double>& point) const;
-    /// The number of a triangle of the part.
-    [[nodiscard]] std::uint32_t triangleAt(std::uint32_t part, const Vector<double>& point) const;
-    void makeTree();
+    /// In a triangle of the part.
+    [[nodiscard]] Corners cornersAt(std::uint32_t part, const Vector<double>& point) const;
+    /// What follows from the places of the vertices.
+    void measure();
 
     MeshTriangles triangles;
     WearLaw wearLaw;
     std::vector<SurfaceWear> wear;
+    std::vector<std::vector<std::uint32_t>> trianglesOf;  // each part
+    std::vector<Gradients> gradients;
     BoxTree tree;
     double tolerance;  // m
 };
