@@ -6,6 +6,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Base/RunError.h"
 
 namespace pendular {
@@ -33,14 +34,15 @@ struct TriangleForce {
 /// Puts the forces, and the accelerations that follow, into a state whose places and velocities are those of
 /// now.
 void takeForces(const Membrane& membrane, std::size_t number, const ContactSystem& contacts,
-                const ParticleStore& grains, const Vector<double>& gravity, MembraneState& state) {
+                const ParticleStore& grains, const Vector<double>& gravity, int threads,
+                MembraneState& state) {
     const MembraneNet& net = membrane.getNet();
     const Vector<double> none{0, 0, 0};
     state.gravity = gravity;
-    state.ofGrains = forcesOfGrains(membrane, static_cast<int>(number), contacts, grains);
+    state.ofGrains = forcesOfGrains(membrane, static_cast<int>(number), contacts, grains, threads);
     state.elastic.assign(state.position.size(), none);
     state.ofPressure.assign(state.position.size(), none);
-    net.addElasticForces(state.position, state.elastic);
+    net.addElasticForces(state.position, state.elastic, threads);
     net.addPressureForces(state.position, membrane.getPressure(), state.ofPressure);
     Column& acceleration = state.acceleration;  // first the force
     for (std::size_t v = 0; v < acceleration.size(); ++v)
@@ -89,7 +91,7 @@ std::string_view kindOf(const Membrane& membrane) {
 }
 
 void refuseCollapse(std::size_t number, const Membrane& membrane, const Step& step) {
-    const int triangle = membrane.getNet().collapsed(membrane.state().position);
+    const int triangle = membrane.getNet().collapsed(membrane.state().position, step.threads);
     if (triangle < 0) return;
     const auto& [a, b, c] = membrane.getNet().triangles()[static_cast<std::size_t>(triangle)];
     const Vector<double> middle = (1.0 / 3) * (membrane.state().position[a] + membrane.state().position[b] +
@@ -127,7 +129,8 @@ void actAtShape(const GrainShapes& shapes, const ParticleStore& grains, std::uin
 }  // namespace
 
 Column forcesOfGrains(const Membrane& membrane, int wall, const ContactSystem& contacts,
-                      const ParticleStore& grains) {
+                      const ParticleStore& grains, int threads) {
+    constexpr std::size_t worthAThread = 512;
     const ContactStore& store = contacts.store();
     const ContactLayout& layout = store.memory.getLayout();
     const GrainShapes* const shapes = contacts.laws().shapes();
@@ -165,21 +168,29 @@ Column forcesOfGrains(const Membrane& membrane, int wall, const ContactSystem& c
     std::sort(found.begin(), found.end(), [](const TriangleForce& a, const TriangleForce& b) {
         return std::tie(a.grain, a.part) < std::tie(b.grain, b.part);
     });
+    std::vector<std::array<Vector<double>, 3>> shares(found.size());  // N, of the corners
+    inParts(
+        found.size(), threads,
+        [&](int, std::size_t first, std::size_t end) {
+            for (std::size_t k = first; k < end; ++k)
+                shares[k] = membrane.weightsAt(found[k].triangle, found[k].point)
+                                .forces(found[k].force, found[k].couple);
+        },
+        worthAThread);
     Column forces(membrane.getNet().vertices().size(), {0, 0, 0});
-    for (const TriangleForce& at : found) {
-        const auto shares = membrane.weightsAt(at.triangle, at.point).forces(at.force, at.couple);
-        const auto& corners = membrane.getNet().triangles()[at.triangle];
-        for (std::size_t k = 0; k < 3; ++k) forces[corners[k]] += shares[k];
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        const auto& corners = membrane.getNet().triangles()[found[k].triangle];
+        for (std::size_t corner = 0; corner < 3; ++corner) forces[corners[corner]] += shares[k][corner];
     }
     return forces;
 }
 
 void MembraneMotion::renewForces(const WallHandler& walls, const ContactSystem& contacts,
-                                 const ParticleStore& grains, const Vector<double>& gravity) {
+                                 const ParticleStore& grains, const Vector<double>& gravity, int threads) {
     forEachMembrane(walls, [&](std::size_t number, Membrane& membrane) {
         if (!membrane.hasOldForces()) return;
         MembraneState now = membrane.state();
-        takeForces(membrane, number, contacts, grains, gravity, now);
+        takeForces(membrane, number, contacts, grains, gravity, threads, now);
         if (now.earlier.empty()) now.earlier = now.acceleration;
         membrane.finish(std::move(now));
     });
@@ -223,7 +234,7 @@ void MembraneMotion::begin(const WallHandler& walls, const Step& step) {
                 step.time, number, kindOf(membrane), farthest, step.length, step.smallestRadius,
                 membrane.isOfHost() ? "take a smaller time step, or let the host move it slower"
                                     : "take a smaller time step, a smaller pressure or more damping"));
-        membrane.goOn(std::move(next), farthest);
+        membrane.goOn(std::move(next), farthest, step.threads);
         refuseCollapse(number, membrane, step);
         refuseSelfContact(number, membrane, step);
     });
@@ -234,7 +245,7 @@ void MembraneMotion::finish(const WallHandler& walls, const ContactSystem& conta
     std::size_t k = 0;
     forEachMembrane(walls, [&](std::size_t number, Membrane& membrane) {
         MembraneState end = membrane.state();
-        takeForces(membrane, number, contacts, grains, step.gravity, end);
+        takeForces(membrane, number, contacts, grains, step.gravity, step.threads, end);
         if (step.length == 0) {
             end.earlier = end.acceleration;  // there is no step before the first
             return membrane.finish(std::move(end));

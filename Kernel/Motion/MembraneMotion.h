@@ -20,7 +20,7 @@ public:
     /// Finds the forces on a membrane that is new, or whose contacts have ended since the last step, at the
     /// places where grains and vertices are, before they move and before a restart file is written.
     static void renewForces(const WallHandler& walls, const ContactSystem& contacts,
-                            const ParticleStore& grains, const Vector<double>& gravity);
+                            const ParticleStore& grains, const Vector<double>& gravity, int threads);
     /// Begins a step, before walls move. Throws RunError where a vertex moves too far, a triangle collapses,
     /// or a membrane goes through itself.
     void begin(const WallHandler& walls, const Step& step);
@@ -39,7 +39,7 @@ private:
 /// contact acts at the triangle's nearest point, with the couple that it has about it: force and torque are
 /// kept to round-off.
 [[nodiscard]] MembraneState::Column forcesOfGrains(const Membrane& membrane, int wall,
-                                                   const ContactSystem& contacts,
-                                                   const ParticleStore& grains);
+                                                   const ContactSystem& contacts, const ParticleStore& grains,
+                                                   int threads = 1);
 
 }  // namespace pendular

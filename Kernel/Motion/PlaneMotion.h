@@ -21,6 +21,7 @@ public:
         const Integrator& scheme;
         double smallestRadius;  // m, of the grains
         bool bringsGrains;      // the scene has inlets
+        int threads = 1;
     };
 
     /// Whether it is a plane; a wall of another shape that has a drive is left where it is.

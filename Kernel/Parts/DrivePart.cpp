@@ -73,7 +73,8 @@ void DrivePart::prepare(StepContext& step) {
 }
 
 PlaneMotion::Step DrivePart::stepOf(const StepContext& step) {
-    return {step.time, step.length, step.gravity, *step.scheme, step.smallestRadius, step.hasInlets};
+    return {step.time,           step.length,    step.gravity, *step.scheme,
+            step.smallestRadius, step.hasInlets, step.threads};
 }
 
 void DrivePart::moveSurroundings(StepContext& step) {

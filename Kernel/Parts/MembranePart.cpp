@@ -14,7 +14,7 @@ Features MembranePart::features(const StepContext& scene) const {
 }
 
 void MembranePart::prepare(StepContext& step) {
-    MembraneMotion::renewForces(step.walls, step.contacts, step.grains(), step.gravity);
+    MembraneMotion::renewForces(step.walls, step.contacts, step.grains(), step.gravity, step.threads);
     motion.forget();
 }
 

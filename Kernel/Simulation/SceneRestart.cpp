@@ -11,7 +11,8 @@ void Scene::Inside::visitAll(StateArchive& archive) {
     // A file holds bodies, laws and contacts that fit together: what hooks have just changed is taken over.
     if (archive.isWriting() && scene.hasBegun()) {
         takeOverChanges();
-        MembraneMotion::renewForces(scene.wallHandler, contacts, context.grains(), context.gravity);
+        MembraneMotion::renewForces(scene.wallHandler, contacts, context.grains(), context.gravity,
+                                    context.threads);
     }
     visitScene(archive);
     if (archive.isReading()) prepare();

@@ -201,11 +201,11 @@ void Membrane::loseForce(const Vector<double>& force) {
     forcesAreOld = true;
 }
 
-void Membrane::goOn(MembraneState next, double farthest) {
+void Membrane::goOn(MembraneState next, double farthest, int threads) {
     now = std::move(next);
     shifted = farthest;
     unlooked += 2 * farthest;
-    shape.update(now.position);
+    shape.update(now.position, threads);
 }
 
 WallSurface Membrane::surface(const SceneSphere&) const {

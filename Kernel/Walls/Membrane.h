@@ -114,7 +114,7 @@ public:
     // Called by MembraneMotion.
     [[nodiscard]] const MembraneState& state() const { return now; }
     /// The vertices go on; the farthest (m) is told by the next moveTo().
-    void goOn(MembraneState next, double farthest);
+    void goOn(MembraneState next, double farthest, int threads = 1);
     /// Forces, velocities and accelerations at the end of the step; the places are those of goOn().
     void finish(MembraneState end) { now = std::move(end), forcesAreOld = false; }
     /// Contacts have ended, or none of its forces are known, since the last step.

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Shapes/WeldedMesh.h"
 #include "Kernel/Walls/BoxTree.h"
 
@@ -31,6 +32,22 @@ void checkMaterial(const MembraneMaterial& m) {
             "another "
             "ratio nu, E / (1 - nu) counts where a membrane is pulled in all directions, E where in one).",
             m.poissonsRatio));
+}
+
+constexpr std::size_t worthAThread = 512;  // springs, hinges, triangles
+
+/// The first number below count for which something is so; count where it is so for none.
+template <class Condition>
+std::size_t firstOf(std::size_t count, int threads, const Condition& isSo) {
+    std::vector<std::size_t> ofParts(static_cast<std::size_t>(threads), count);
+    inParts(
+        count, threads,
+        [&](int part, std::size_t first, std::size_t end) {
+            while (first < end && !isSo(first)) ++first;
+            if (first < end) ofParts[static_cast<std::size_t>(part)] = first;
+        },
+        worthAThread);
+    return std::ranges::min(ofParts);
 }
 
 std::array<Point, 4> cornersOf(const MembraneNet::Hinge& hinge, MembraneNet::Points at) {
@@ -215,20 +232,42 @@ bool MembraneNet::isClosed() const {
     return std::ranges::none_of(atRim, [](bool at) { return at; });
 }
 
-void MembraneNet::addElasticForces(Points at, std::span<Point> forces) const {
+/// Threads compute springs and hinges by themselves; they are added in their order. The memory between is
+/// kept: new pages in each step took 5 % of it.
+void MembraneNet::addElasticForces(Points at, std::span<Point> forces, int threads) const {
     if (!hasSprings()) return;
-    for (const Spring& spring : edges) {
-        const Point along = at[spring.ends[1]] - at[spring.ends[0]];
-        const double length = norm(along);
-        const Point pull = (spring.stiffness * (length - spring.length) / length) * along;
-        forces[spring.ends[0]] += pull;
-        forces[spring.ends[1]] -= pull;
+    static thread_local std::vector<Point> keptPulls;
+    static thread_local std::vector<std::array<Point, 4>> keptPushes;
+    std::vector<Point>& pulls = keptPulls;  // other threads have their own of the first names
+    std::vector<std::array<Point, 4>>& pushes = keptPushes;
+    pulls.resize(edges.size()), pushes.resize(folds.size());
+    inParts(
+        edges.size(), threads,
+        [&](int, std::size_t first, std::size_t end) {
+            for (std::size_t e = first; e < end; ++e) {
+                const Spring& spring = edges[e];
+                const Point along = at[spring.ends[1]] - at[spring.ends[0]];
+                const double length = norm(along);
+                pulls[e] = (spring.stiffness * (length - spring.length) / length) * along;
+            }
+        },
+        worthAThread);
+    inParts(
+        folds.size(), threads,
+        [&](int, std::size_t first, std::size_t end) {
+            for (std::size_t h = first; h < end; ++h) {
+                const HingeAngle now = hingeAngle(cornersOf(folds[h], at));
+                const double moment = -folds[h].stiffness * (now.angle - folds[h].angle);
+                for (std::size_t k = 0; k < 4; ++k) pushes[h][k] = moment * now.by[k];
+            }
+        },
+        worthAThread);
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        forces[edges[e].ends[0]] += pulls[e];
+        forces[edges[e].ends[1]] -= pulls[e];
     }
-    for (const Hinge& hinge : folds) {
-        const HingeAngle now = hingeAngle(cornersOf(hinge, at));
-        const double moment = -hinge.stiffness * (now.angle - hinge.angle);
-        for (std::size_t k = 0; k < 4; ++k) forces[hinge.corners[k]] += moment * now.by[k];
-    }
+    for (std::size_t h = 0; h < folds.size(); ++h)
+        for (std::size_t k = 0; k < 4; ++k) forces[folds[h].corners[k]] += pushes[h][k];
 }
 
 void MembraneNet::addPressureForces(Points at, double pressure, std::span<Point> forces) const {
@@ -293,19 +332,20 @@ double MembraneNet::squaredFrequency(const std::vector<bool>& held) const {
     return largest;
 }
 
-int MembraneNet::collapsed(Points at) const {
-    for (std::size_t t = 0; t < faces.size(); ++t) {
+int MembraneNet::collapsed(Points at, int threads) const {
+    const std::size_t small = firstOf(faces.size(), threads, [&](std::size_t t) {
         const auto& [a, b, c] = faces[t];
-        if (!(norm(twiceArea(at[a], at[b], at[c])) > 0.02 * areas[t])) return static_cast<int>(t);
-    }
-    constexpr double cosineOfTouch = -0.98481;  // of 170 degrees
-    for (const Hinge& hinge : folds) {
-        const std::array<Point, 4> x = cornersOf(hinge, at);
+        return !(norm(twiceArea(at[a], at[b], at[c])) > 0.02 * areas[t]);
+    });
+    if (small < faces.size()) return static_cast<int>(small);
+    const std::size_t folded = firstOf(folds.size(), threads, [&](std::size_t h) {
+        constexpr double cosineOfTouch = -0.98481;  // of 170 degrees
+        const std::array<Point, 4> x = cornersOf(folds[h], at);
         const Point ofA = twiceArea(x[0], x[1], x[2]), ofB = twiceArea(x[1], x[0], x[3]);
-        if (!(dot(ofA, ofB) > cosineOfTouch * norm(ofA) * norm(ofB)))
-            return static_cast<int>(hinge.triangles[0]);
-    }
-    return -1;
+        const double product = dot(ofA, ofB);
+        return !(product > 0) && !(product > cosineOfTouch * norm(ofA) * norm(ofB));
+    });
+    return folded < folds.size() ? static_cast<int>(folds[folded].triangles[0]) : -1;
 }
 
 std::vector<Triangle> membraneSheet(int columns, int rows, double edge) {

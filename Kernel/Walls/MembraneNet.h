@@ -100,8 +100,9 @@ public:
     [[nodiscard]] double diagonal() const { return extent; }        // m, the diagonal of the box around it
     [[nodiscard]] double shortestEdge() const { return shortest; }  // m, without force
 
-    /// Adds the forces (N) of springs and hinges to those on the vertices.
-    void addElasticForces(Points at, std::span<Point> forces) const;
+    /// Adds the forces (N) of springs and hinges to those on the vertices. The same bits for any number of
+    /// threads.
+    void addElasticForces(Points at, std::span<Point> forces, int threads = 1) const;
     /// Adds the forces (N) of a pressure (Pa) that pushes along the normals: p A n / 3 to each corner.
     void addPressureForces(Points at, double pressure, std::span<Point> forces) const;
     [[nodiscard]] double stretchingEnergy(Points at) const;  // J
@@ -119,7 +120,7 @@ public:
 
     /// The number of a triangle that is near to none: smaller than a hundredth of its area without force, or
     /// turned against its neighbour by more than 170 degrees, so that the two touch. -1 where there is none.
-    [[nodiscard]] int collapsed(Points at) const;
+    [[nodiscard]] int collapsed(Points at, int threads = 1) const;
 
 private:
     /// A side of a triangle, from one of its corners to the next.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "Kernel/Base/Parallel.h"
+
 namespace pendular {
 
 TriangleWeights::TriangleWeights(const Vector<double>& a, const Vector<double>& b, const Vector<double>& c,
@@ -39,15 +41,22 @@ MembraneSurface::MembraneSurface(std::vector<Corners> triangles,
     tree = BoxTree(boxes);
 }
 
-void MembraneSurface::update(std::span<const Point> at) {
-    faces.clear(), boxes.clear();
+void MembraneSurface::update(std::span<const Point> at, int threads) {
+    constexpr std::size_t worthAThread = 512;
+    faces.resize(corners.size()), boxes.resize(corners.size());
+    inParts(
+        corners.size(), threads,
+        [&](int, std::size_t first, std::size_t end) {
+            for (std::size_t t = first; t < end; ++t) {
+                const auto& [a, b, c] = corners[t];
+                faces[t] = faceBetween(at[a], at[b], at[c]);
+                boxes[t] = {};
+                for (const std::uint32_t v : {a, b, c}) boxes[t].include(at[v]);
+            }
+        },
+        worthAThread);
     all = {};
-    for (const auto& [a, b, c] : corners) {
-        faces.push_back(faceBetween(at[a], at[b], at[c]));
-        Box& box = boxes.emplace_back();
-        for (const std::uint32_t v : {a, b, c}) box.include(at[v]);
-        all.include(box);
-    }
+    for (const Box& box : boxes) all.include(box);
     size = norm(all.highest - all.lowest);
     tree.refit(boxes);
 }

@@ -39,7 +39,7 @@ public:
                     std::span<const Point> at);
 
     /// The vertices have moved.
-    void update(std::span<const Point> at);
+    void update(std::span<const Point> at, int threads = 1);
     /// A box around it.
     [[nodiscard]] const Box& around() const { return all; }
     /// The unit normal of a triangle.
