@@ -9,6 +9,7 @@
 #include "Drivers/FluidisedColumn/ColumnBed.h"
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/CommandLineLibrary.h"
+#include "Kernel/Math/Halving.h"
 #include "Kernel/Output/RunTable.h"
 
 using namespace pendular;
@@ -37,14 +38,9 @@ struct FluidisedColumn : ColumnBed {
         const double begun = std::min(std::floor(time / stage), stages - 1.0);
         return liftOff * (0.5 + (largest - 0.5) * begun / (stages - 1));
     }
-    /// Of the closed form: where drag is the weight, but not below that of the chain at rest. By halving.
+    /// Of the closed form: where drag is the weight, but not below that of the chain at rest.
     [[nodiscard]] double expandedPorosity(double speed) const {
-        double low = porosity, high = 1;
-        for (int k = 0; k < 60; ++k) {
-            const double middle = 0.5 * (low + high);
-            (balanced(middle) < speed ? low : high) = middle;
-        }
-        return low;
+        return turningPoint(porosity, 1, [&](double share) { return balanced(share) < speed; }).holds;
     }
     void writeOutput() override {
         if (getTime() == 0) return;  // no step has asked for the fluid yet

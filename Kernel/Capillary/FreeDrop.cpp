@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "Kernel/Capillary/CapillaryBridge.h"
+#include "Kernel/Math/Halving.h"
 
 namespace pendular {
 
@@ -44,14 +45,13 @@ double volumeOf(const BridgeConditions& c, double radius) {
 
 /// m; nothing where no sphere holds the volume (between two planes that are wetted well)
 std::optional<double> radiusOf(const BridgeConditions& c) {
-    double smaller = std::cbrt(0.75 * c.volume / pi), larger = smaller;
-    for (int k = 0; volumeOf(c, larger) < c.volume; ++k, larger *= 2)
+    const auto isTooSmall = [&](double radius) { return volumeOf(c, radius) < c.volume; };
+    const double smallest = std::cbrt(0.75 * c.volume / pi);
+    double larger = smallest;
+    for (int k = 0; isTooSmall(larger); ++k, larger *= 2)
         if (k == 60) return {};
-    for (int k = 0; k < 100; ++k) {
-        const double middle = 0.5 * (smaller + larger);
-        (volumeOf(c, middle) < c.volume ? smaller : larger) = middle;
-    }
-    return 0.5 * (smaller + larger);
+    const auto [smaller, large] = turningPoint(smallest, larger, isTooSmall, 100);
+    return 0.5 * (smaller + large);
 }
 
 }  // namespace

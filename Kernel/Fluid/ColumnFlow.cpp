@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/RunError.h"
 #include "Kernel/State/StateArchive.h"
@@ -22,6 +24,9 @@ void ColumnFlow::check(const FluidGrid& grid) const {
 
 void ColumnFlow::findVelocity(const FluidGrid& grid, FluidFields& fields, double time) {
     const double flux = speed(time);
+    if (!std::isfinite(flux))
+        throw RunError(fmt::format(
+            "At time {:.6g} s fluid: superficialSpeed = {} m/s; it must be a finite number.", time, flux));
     for (std::size_t k = 0; k < grid.size(); ++k) {
         if (!(fields.porosity[k] > 0))
             throw RunError(

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Math/Halving.h"
 #include "Kernel/Species/LawNames.h"
 
 namespace pendular {
@@ -94,13 +95,9 @@ constexpr std::array laws{
 /// The x > 0 of a growing function that gives `wanted`, by halving.
 template <class Function>
 double root(Function&& grows, double wanted) {
-    double low = 0, high = 1;
+    double high = 1;
     while (grows(high) < wanted) high *= 2;
-    while (true) {
-        const double middle = 0.5 * (low + high);
-        if (!(middle > low && middle < high)) return middle;
-        (grows(middle) < wanted ? low : high) = middle;
-    }
+    return turningPoint(0, high, [&](double x) { return grows(x) < wanted; }).fails;
 }
 
 }  // namespace
@@ -116,6 +113,15 @@ const DragLaw& dragLaw(std::string_view name) {
     unknownName("drag law", name, names);
 }
 
+double dragForce(const DragLaw& law, double porosity, double slip, double diameter,
+                 const FluidMaterial& fluid) {
+    checkFields(fluid);
+    checkValue("dragForce()", "porosity", porosity, "", anyPorosity);
+    checkValue("dragForce()", "slip", slip, "m/s", notNegative);
+    checkValue("dragForce()", "diameter", diameter, "m", positive);
+    return law.resistance({porosityOfDrag(porosity), slip, diameter, fluid}) * slip;
+}
+
 double terminalSpeed(double diameter, double density, const FluidMaterial& fluid, double gravity) {
     return balancedSpeed(dragLaw("SchillerNaumann"), 1, diameter, density, fluid, gravity);
 }
@@ -128,7 +134,7 @@ double balancedSpeed(const DragLaw& law, double porosity, double diameter, doubl
     checkValue("balancedSpeed()", "diameter", diameter, "m", positive);
     checkValue("balancedSpeed()", "density", density, "kg/m^3", {fluid.density, infinity, true, false});
     checkValue("balancedSpeed()", "gravity", gravity, "m/s^2", notNegative);
-    DragState state{porosity, 0, diameter, fluid};
+    DragState state{porosityOfDrag(porosity), 0, diameter, fluid};
     const double weight = volume(state) * (density - fluid.density) * gravity;
     if (weight == 0) return 0;
     return root(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <string_view>
@@ -58,13 +59,28 @@ struct DragLaw {
 /// lower). L. Schiller and A. Naumann, Z. VDI 77 (1933) 318. Times Re, so that it has a limit at Re = 0.
 [[nodiscard]] double schillerNaumannTimesReynolds(double reynolds);
 
+/// The lowest porosity that a drag law is asked at: grains overlap, or fill a cell by the way their volumes
+/// are spread. Porosity itself is not changed.
+inline constexpr double lowestPorosityOfDrag = 0.35;
+/// The porosity at which a law is asked where that of the cells is this: from lowestPorosityOfDrag to 1.
+[[nodiscard]] constexpr double porosityOfDrag(double porosity) {
+    return std::clamp(porosity, lowestPorosityOfDrag, 1.0);
+}
+
+/// N: the force of a law, that of model A, as a grain of a scene gets it. Below a porosity of 0.35 it is that
+/// at 0.35, with the same slip.
+/// @param porosity above 0, up to 1; @param slip m/s, |u - v|, not negative; @param diameter m
+[[nodiscard]] double dragForce(const DragLaw& law, double porosity, double slip, double diameter,
+                               const FluidMaterial& fluid);
+
 /// m/s: the speed at which the drag of a sphere alone, by Schiller and Naumann, is its weight in the fluid.
 /// @param gravity m/s^2, not negative; @param density kg/m^3, of the sphere, not below that of the fluid
 [[nodiscard]] double terminalSpeed(double diameter, double density, const FluidMaterial& fluid,
                                    double gravity);
 
 /// m/s: the superficial speed at which the drag on the grains of a homogeneous bed of a porosity is their
-/// weight in the fluid: where a fixed bed lifts off, and how fast a suspension settles.
+/// weight in the fluid: where a fixed bed lifts off, and how fast a suspension settles. The drag is that of
+/// dragForce().
 [[nodiscard]] double balancedSpeed(const DragLaw& law, double porosity, double diameter, double density,
                                    const FluidMaterial& fluid, double gravity);
 

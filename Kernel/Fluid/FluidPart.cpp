@@ -106,7 +106,7 @@ void FluidPart::countOutside(const DragState& state) const {
 
 double FluidPart::resistanceOf(const GrainReference& grain, const std::array<CellShare, 8>& shares,
                                const Vector<double>& slip) const {
-    const double porosity = std::clamp(meanOf(now.porosity, shares), lowestPorosityOfDrag, 1.0);
+    const double porosity = porosityOfDrag(meanOf(now.porosity, shares));
     const DragState state{porosity, norm(slip), 2 * grain.getRadius(), fluid};
     countOutside(state);
     return law.resistance(state);
@@ -129,7 +129,7 @@ void FluidPart::push(StepContext& step, GrainReference& grain, const Immersed& h
     const Vector<double> u = meanOf(now.velocity, shares), v = toVector(grain.getVelocity());
     const bool isA = model == PressureModel::A;
     double resistance = here.resistance;
-    if (!isA) resistance /= std::clamp(meanOf(now.porosity, shares), lowestPorosityOfDrag, 1.0);
+    if (!isA) resistance /= porosityOfDrag(meanOf(now.porosity, shares));
     const Vector<double> gradient = isA ? meanOf(now.pressureGradient, shares) : fluid.density * step.gravity;
     const Vector<double> pressure = -grain.getVolume() * gradient;  // N
     Vector<double> after = v;

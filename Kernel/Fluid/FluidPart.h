@@ -85,8 +85,4 @@ private:
     mutable std::uint64_t asked = 0, outside = 0;  // how often the law was asked, and beyond where it holds
 };
 
-/// The lowest porosity that a drag law is asked at: grains overlap, or fill a cell by the way their volumes
-/// are spread. Porosity itself is not changed.
-inline constexpr double lowestPorosityOfDrag = 0.35;
-
 }  // namespace pendular

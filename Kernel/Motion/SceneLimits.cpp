@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Math/Halving.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Particles/OwnSpecies.h"
 #include "Kernel/Particles/PeriodicBox.h"
@@ -186,11 +187,9 @@ template <class Limit>
 static double shareThatIsBorne(double timeStep, Limit&& limitOf) {
     double share = 1, tooMuch = 1;
     for (int halving = 0; halving < 50 && timeStep > limitOf(share); ++halving) tooMuch = share, share *= 0.5;
-    for (int k = 0; k < 40; ++k) {
-        const double middle = 0.5 * (share + tooMuch);
-        (timeStep > limitOf(middle) ? tooMuch : share) = middle;
-    }
-    return share;
+    return turningPoint(
+               share, tooMuch, [&](double part) { return !(timeStep > limitOf(part)); }, 40)
+        .holds;
 }
 
 namespace {
@@ -255,6 +254,11 @@ double shortestHalfPeriod(const ContactLaws& species, const GrainSizes& grains, 
         shortest = std::min(shortest, halfPeriod(laws, bodies, mass));
     });
     return shortest;
+}
+
+double stepOfFastestPair(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls) {
+    return 0.9 / std::numbers::pi * shortestHalfPeriod(species, grains, walls) *
+           std::sqrt(grains.response.inertia);
 }
 
 void checkScene(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,

@@ -9,6 +9,7 @@
 #include "Kernel/Math/EigenConversion.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Particles/Resolution.h"
+#include "Kernel/Particles/TurningResponse.h"
 #include "Kernel/Shapes/UnionOfSpheres.h"
 
 namespace pendular {
@@ -210,10 +211,7 @@ void RigidBodies::refresh(const ParticleStore& grains) {
     placesAreKnown = true;
 }
 
-namespace {
-
-/// 1/kg: how much a force on the grain at an arm accelerates that point by the turning of the body, at most:
-/// the largest eigenvalue of A^T I^-1 A, with A n = arm x n.
+/// The largest eigenvalue of A^T I^-1 A, with A n = arm x n.
 double responseOfTurning(const Vector<double>& arm, const Vector<double>& inertia) {
     Eigen::Matrix3d cross;
     cross << 0, -arm.z, arm.y, arm.z, 0, -arm.x, -arm.y, arm.x, 0;
@@ -221,8 +219,6 @@ double responseOfTurning(const Vector<double>& arm, const Vector<double>& inerti
     const Eigen::Matrix3d response = cross.transpose() * inverse.asDiagonal() * cross;
     return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(response, Eigen::EigenvaluesOnly).eigenvalues()[2];
 }
-
-}  // namespace
 
 double RigidBodies::massAtContacts(const ParticleStore& grains, std::size_t at) const {
     const RigidBody& body = bodies[at];

@@ -1,8 +1,6 @@
 #include "Kernel/Parts/AdaptivePart.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Particles/ParticleHandler.h"
@@ -17,10 +15,8 @@ Features AdaptivePart::features(const StepContext& /*scene*/) const {
     return adaptive.isSet() ? Features{Feature::AdaptiveStep} : Features{};
 }
 
-/// Rigid bodies answer to a contact as a mass that is a share of a free sphere's.
 double AdaptivePart::largestStepOf(const StepContext& scene, const GrainSizes& sizes) const {
-    const double ofFree = shortestHalfPeriod(*scene.laws, sizes, scene.walls),
-                 most = 0.9 / std::numbers::pi * ofFree * std::sqrt(sizes.response.inertia);
+    const double most = stepOfFastestPair(*scene.laws, sizes, scene.walls);
     return std::min(most < infinity ? most : scene.length,  // nothing can touch
                     shareOfServo * flow.shortestServoTime());
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Math/Halving.h"
 #include "Kernel/Motion/GrainSizes.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Motion/StabilityLimit.h"
@@ -42,12 +43,10 @@ public:
     /// m, where a function of the overlap that grows reaches a value; at most the smaller radius.
     template <class Function>
     [[nodiscard]] double overlapAt(double value, Function&& function) const {
-        double low = 0, high = std::min(bodies.radius1, bodies.radius2);
-        for (int k = 0; k < 60; ++k) {
-            const double middle = 0.5 * (low + high);
-            (function(middle) < value ? low : high) = middle;
-        }
-        return high;
+        const double most = std::min(bodies.radius1, bodies.radius2);
+        return turningPoint(
+                   0, most, [&](double overlap) { return function(overlap) < value; }, 60)
+            .fails;
     }
 
 private:

@@ -16,6 +16,8 @@
 #include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Motion/StabilityLimit.h"
+#include "Kernel/Particles/GrainName.h"
+#include "Kernel/Particles/TurningResponse.h"
 #include "Kernel/Simulation/OverlapEstimate.h"
 #include "Kernel/Simulation/Scene.h"
 #include "Kernel/Species/Field.h"
@@ -252,10 +254,9 @@ std::vector<Meeting> meetingsOf(Scene& scene) {
     forEachExtremePair(
         scene.laws(), scene.grainSizes(scene.particleHandler.store()), scene.wallHandler,
         [&](const PairLaws& pair, const Bodies& bodies, double effectiveMass) {
-            const double stiffness = contactStiffness(pair, bodies, effectiveMass).normal.spring;
             const bool attractsBefore = !pair.laws.ofPair(pair.a, pair.b).formsAtContact;
             const Meeting found{static_cast<std::size_t>(pair.a), static_cast<std::size_t>(pair.b), bodies,
-                                std::numbers::pi * std::sqrt(effectiveMass / stiffness),
+                                halfPeriod(pair, bodies, effectiveMass),
                                 attractsBefore ? pair.range(bodies) : 0};
             std::array<std::size_t, 3> key{found.species1, found.species2, found.isAtWall() ? 1u : 0u};
             if (!found.isAtWall() && key[0] > key[1]) std::swap(key[0], key[1]);
@@ -270,13 +271,41 @@ std::vector<Meeting> meetingsOf(Scene& scene) {
 /// s: up to which figures of beds and flows keep to an error.
 double stepOfBeds(Scene& scene, double error) {
     constexpr double resolved = 0.01;
-    const double ofFastest = 0.9 * scene.shortestContactTime() / std::numbers::pi;
+    const double ofFastest =
+        stepOfFastestPair(scene.laws(), scene.grainSizes(scene.particleHandler.store()), scene.wallHandler);
     const std::string_view name = scene.getIntegrator().name;
     if (error < resolved) return std::min(scene.stabilityLimit(), ofFastest);
     if (name == integrators::predictedVelocityVerlet.name || name == integrators::springsInStep.name)
         return ofFastest;
     if (name == integrators::velocityVerlet.name) return 0.5 * ofFastest;
     return std::min(scene.stabilityLimit(), ofFastest);
+}
+
+/// Throws InputError for a rigid body that one contact moves more easily than it would move a grain of it by
+/// itself: it parts sooner than the grains whose collisions are computed. A body of solid spheres of their
+/// own density never does, because it is one of them and more: what joins them only takes motions away.
+void refuseLightBodies(const Scene& scene, const ParticleStore& grains) {
+    const RigidBodies& bodies = grains.bodies;
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        if (bodies.isHeld(k)) continue;
+        const Vector<double>& moments = bodies[k].inertia;
+        for (const BodyMember& member : bodies.membersOf(k)) {
+            const std::uint32_t place = grains.place[member.grain];
+            const double radius = grains.translation[place].radius,
+                         alone = scene.laws().massOf(grains.species[place], radius);
+            const double ofShift = 1 / bodies[k].mass + responseOfTurning(member.arm, moments),
+                         ofRim = radius * radius / (2.5 * std::min({moments.x, moments.y, moments.z})),
+                         moved = 1 / std::max(ofShift, ofRim);
+            if (moved >= 0.9 * alone) continue;  // 5 % of the time of a contact
+            throw InputError(fmt::format(
+                "setStepFor: {} moves at a contact as a mass of {:.4g} kg; it must be at least that of the "
+                "grain "
+                "alone, {:.4g} kg, because collisions of single grains are computed; give the body the mass "
+                "of "
+                "its spheres, or take stabilityLimit() or setAdaptiveTimeStep(), which know bodies.",
+                nameOfGrain(grains, member.grain), moved, alone));
+        }
+    }
 }
 
 }  // namespace
@@ -291,6 +320,7 @@ StepForError findStepForError(Scene& scene, double error, std::optional<double> 
         throw InputError(
             "setStepFor: collisions of superquadrics differ by how they are turned; take "
             "stabilityLimit() or setAdaptiveTimeStep().");
+    refuseLightBodies(scene, scene.particleHandler.store());
     const std::vector<Meeting> meetings = meetingsOf(scene);
     if (meetings.empty())
         throw InputError(

@@ -6,6 +6,7 @@
 
 #include "Kernel/Capillary/BridgeTable.h"
 #include "Kernel/Capillary/CapillaryBridge.h"
+#include "Kernel/Math/Halving.h"
 
 namespace pendular {
 
@@ -62,14 +63,9 @@ double findVolumeWhereBridgesMeet(double contactAngle) {
         const auto solved = solveBridge({{1, contactAngle}, {1, contactAngle}, volume}, 0);
         return solved && solved->firstFillingAngle() >= std::numbers::pi / 6;
     };
-    double low = BridgeTable::leastVolume, high = BridgeTable::mostVolume;
-    if (!reaches(high)) return high;
-    // The filling angle grows with the volume: bisection to round-off.
-    for (int k = 0; k < 60; ++k) {
-        const double middle = 0.5 * (low + high);
-        (reaches(middle) ? high : low) = middle;
-    }
-    return high;
+    // The filling angle grows with the volume.
+    if (!reaches(BridgeTable::mostVolume)) return BridgeTable::mostVolume;
+    return turningPoint(BridgeTable::mostVolume, BridgeTable::leastVolume, reaches, 60).holds;
 }
 
 }  // namespace

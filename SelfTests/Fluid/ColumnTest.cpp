@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "Drivers/FluidisedColumn/ColumnBed.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Simulation/StateHash.h"
+#include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
 // A chain of grains in a column of water, against the closed forms of a homogeneous bed.
@@ -106,6 +108,21 @@ TEST(Column, settlesAsTheLawSays) {
         fillAndBegin(bed, [](double) { return 0.0; });
         bed.step(static_cast<std::size_t>(0.1 / bed.getTimeStep()));
         EXPECT_NEAR(-bed.particleHandler.getObject(40).getVelocity().z() / bed.balanced(0.7), 1, 0.01) << law;
+    }
+}
+
+// A speed that is not a number would otherwise be found in the grains, a step later.
+TEST(Column, refusesASpeedThatIsNoNumber) {
+    ColumnBed bed;
+    bed.cellsOfBed = 4, bed.cellsOfColumn = 8;
+    fillAndBegin(bed, [](double time) { return time > 0 ? std::nan("") : 0.01; });
+    bed.step();
+    try {
+        bed.step();
+        ADD_FAILURE();
+    } catch (const RunError& error) {
+        EXPECT_TRUE(support::isOneSentence(error.what()));
+        EXPECT_TRUE(support::contains(error.what(), "superficialSpeed = nan m/s"));
     }
 }
 

@@ -114,6 +114,24 @@ TEST(DragLaws, hinderSettlingAsAnotherProgramHasIt) {
     EXPECT_NEAR(speed("DiFelice", 0.8) / (alone * std::pow(0.8, 3.47)), 1, 0.1);
 }
 
+// A bed that is denser than a law is asked at has the drag of the law at 0.35, as in a scene (FluidPartTest),
+// and lifts off where that drag at its own slip U/eps is its weight.
+TEST(DragLaws, areAskedAtAPorosityOf35PercentOrMore) {
+    for (const DragLaw& law : dragLaws()) {
+        const auto force = [&](double porosity) { return dragForce(law, porosity, 0.02, 1e-3, water); };
+        EXPECT_EQ(force(0.2), force(0.35)) << law.name;
+        EXPECT_EQ(force(0.35), 0.02 * law.resistance({0.35, 0.02, 1e-3, water}));
+        EXPECT_EQ(force(0.5), 0.02 * law.resistance({0.5, 0.02, 1e-3, water}));
+        const double speed = balancedSpeed(law, 0.3, 1e-3, 2500, water, 9.81);
+        const double weight = std::numbers::pi / 6 * 1e-9 * (2500 - water.density) * 9.81;
+        EXPECT_NEAR(dragForce(law, 0.3, speed / 0.3, 1e-3, water) / (0.3 * weight), 1, 1e-12);
+    }
+    EXPECT_TRUE(
+        contains(support::refusal([] { (void)dragForce(dragLaw("Ergun"), 0, 1, 1, water); }), "porosity"));
+    EXPECT_TRUE(
+        contains(support::refusal([] { (void)dragForce(dragLaw("Ergun"), 1, -1, 1, water); }), "slip"));
+}
+
 TEST(DragLaws, refuseWhatCannotBe) {
     EXPECT_TRUE(contains(support::refusal([] { (void)dragLaw("Ergum"); }), "nearest names are Ergun"));
     EXPECT_TRUE(support::isOneSentence(support::refusal([] { (void)dragLaw(""); })));

@@ -7,8 +7,10 @@
 
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Simulation/StateHash.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/TestFolder.h"
 
 namespace pendular::fluidPartTest {
 namespace {
@@ -44,6 +46,16 @@ struct Swirl : FluidHost {
 /// Water at rest.
 struct Still : Swirl {
     Still() { rate = 0, rise = 0; }
+};
+
+/// The same of any grid.
+struct Rest : FluidHost {
+    void findVelocity(const FluidGrid&, FluidFields& fields, double) override {
+        fields.velocity.assign(fields.porosity.size(), {0, 0, 0});
+    }
+    void findPressure(const FluidGrid&, FluidFields& fields, const Vector<double>&) override {
+        fields.pressureGradient.assign(fields.porosity.size(), {0, 0, 0});
+    }
 };
 
 std::vector<scenes::GrainMotion> cloud() {
@@ -120,6 +132,55 @@ TEST(FluidPart, countsBuoyancyOnce) {
     }
 }
 
+// A grain that fills its cell: the drag is that of the law at the lowest porosity, which dragForce() has too.
+TEST(FluidPart, asksALawAtTheLowestPorosity) {
+    constexpr double edge = 1.7e-3;
+    constexpr FluidGrid cell{{0, 0, 0}, {edge, edge, edge}, {1, 1, 1}};
+    scenes::FewGrains<S> scene(
+        glass(), {{.radius = radius, .position = {1e-3, 1e-3, 1e-3}, .velocity = {0, 0, 0.02}}}, 1e-6);
+    const FluidPart& fluid =
+        scene.addPart<FluidPart>(cell, water, dragLaw("Ergun"), std::make_unique<Rest>());
+    scene.run(1);
+    const double porosity = fluid.fields().porosity[0];
+    EXPECT_NEAR(porosity, 1 - 4 * std::numbers::pi / 3 * std::pow(radius / edge, 3), 1e-14);
+    ASSERT_LT(porosity, 0.2);
+    const double force = dragForce(dragLaw("Ergun"), porosity, 0.02, 2 * radius, water);
+    EXPECT_NEAR(fluid.fields().drag[0].z * cell.cellVolume() / -force, 1, 1e-12);
+}
+
+void expectSame(const std::vector<Vector<double>>& a, const std::vector<Vector<double>>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k], b[k]) << k;
+}
+
+// What is read of the fluid between two steps is that of the last step, also where a restart lies between.
+// Then all goes on with the same bits.
+TEST(FluidPart, hasItsFieldsAfterARestart) {
+    const support::TestFolder folder;
+    const std::string file = folder.name() + ".h5";
+    const auto expectAlike = [](const FluidPart& one, const FluidPart& other) {
+        EXPECT_EQ(one.fields().porosity, other.fields().porosity);
+        for (const auto field : {&FluidFields::solidFlux, &FluidFields::drag, &FluidFields::source,
+                                 &FluidFields::velocity, &FluidFields::pressureGradient})
+            expectSame(one.fields().*field, other.fields().*field);
+        EXPECT_EQ(one.dragImpulse(), other.dragImpulse());
+        EXPECT_EQ(one.ledger().work, other.ledger().work);
+        EXPECT_EQ(one.ledger().impulse, other.ledger().impulse);
+    };
+    scenes::FewGrains<S> whole(glass(), cloud(), 1e-5), resumed(glass(), cloud(), 1e-5);
+    const FluidPart& fluid = addFluid<Swirl>(whole, "DiFelice", PressureModel::B);
+    const FluidPart& again = addFluid<Swirl>(resumed, "DiFelice", PressureModel::B);
+    whole.run(25);
+    for (const Vector<double>& source : fluid.fields().source) ASSERT_GT(norm(source), 0);
+    whole.writeRestart(file);
+    resumed.restartFrom(file);
+    resumed.initialise();
+    expectAlike(fluid, again);
+    whole.step(25), resumed.step(25);
+    expectAlike(fluid, again);
+    EXPECT_EQ(stateHash(whole.particleHandler.store()), stateHash(resumed.particleHandler.store()));
+}
+
 TEST(FluidPart, refusesWhatCannotBe) {
     const auto refusal = [](const FluidGrid& grid, const FluidMaterial& fluid, bool hasHost = true) {
         return support::refusal([&] {
@@ -134,6 +195,14 @@ TEST(FluidPart, refusesWhatCannotBe) {
     addFluid<Still>(periodic, "WenYu", PressureModel::A);
     periodic.setPeriodic(0, 0, 0.03);
     EXPECT_TRUE(support::contains(support::refusal([&] { periodic.initialise(); }), "along x"));
+    scenes::FewGrains<S> discs(glass(), {{.radius = radius, .position = {0.01, 0.01, 0}}}, 1e-5);
+    discs.particleHandler.holdAll(HeldAxes::inPlane());
+    discs.speciesHandler.setGrainsAreDiscs();
+    discs.setIntegrator(integrators::velocityVerlet);
+    addFluid<Still>(discs, "WenYu", PressureModel::A);
+    const std::string ofDiscs = support::refusal([&] { discs.initialise(); });
+    EXPECT_TRUE(support::isOneSentence(ofDiscs));
+    EXPECT_TRUE(support::contains(ofDiscs, "grains are discs; take spheres"));
     scenes::FewGrains<S> outside(glass(), {{.radius = radius, .position = {0.5, 0, 0}}}, 1e-5);
     addFluid<Still>(outside, "WenYu", PressureModel::A);
     outside.initialise();

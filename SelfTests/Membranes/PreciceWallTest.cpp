@@ -8,6 +8,7 @@
 
 #include "SelfTests/Membranes/MembraneScene.h"
 #include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/TestFolder.h"
 
 #if __has_include(<precice/precice.hpp>)
     #include <precice/precice.hpp>
@@ -75,30 +76,86 @@ std::vector<GrainMotion> ball(double speed) {
     return {{.radius = radius, .position = {0.011, 0.009, radius + 1e-5}, .velocity = {0, 0, -speed}}};
 }
 
+/// A ball over the wall that a partner moves, in windows of four steps.
+struct Coupled : MembraneScene {
+    explicit Coupled(double speed) : MembraneScene(ball(speed), step, material(0, 0)), wall(add(flat())) {}
+    /// Until the partner's time is this, or the end.
+    void runWith(StandIn& partner, double until) {
+        PreciceWall coupling(partner, *wall, {.mesh = "Wall"});
+        while (coupling.isOngoing() && partner.time < until - 1e-12) {
+            coupling.beforeStep(step);
+            MembraneScene::step();
+            coupling.afterStep();
+        }
+    }
+    static constexpr double step = 1e-6, window = 4 * step;  // s
+    HostWall* wall;
+};
+
 /// An elastic ball and the plate of the partner part as the laws of collision say, to the share by which the
 /// plate is late: (m - M)/(m + M) of the speed; momentum to round-off.
 TEST(PreciceWall, collidesWithThePlateOfItsPartner) {
-    constexpr double speed = 0.2, step = 1e-6;
+    constexpr double speed = 0.2;
     const double mass = 0.7 * grainMass;
-    MembraneScene scene(ball(speed), step, material(0, 0));
-    HostWall* const wall = scene.add(flat());
+    Coupled scene(speed);
     scene.initialise();
-    StandIn partner{.mass = mass, .window = 4 * step, .end = 0.02};
-    PreciceWall coupling(partner, *wall, {.mesh = "Wall"});
-    EXPECT_EQ(partner.calls, "vwi");
-    int steps = 0;
-    while (coupling.isOngoing()) {
-        coupling.beforeStep(step);
-        scene.step();
-        coupling.afterStep();
-        ++steps;
-    }
-    EXPECT_EQ(steps, 20000);
+    StandIn partner{.mass = mass, .window = Coupled::window, .end = 0.02};
+    scene.runWith(partner, infinity);
+    EXPECT_EQ(partner.calls.substr(0, 4), "vwiw");
+    EXPECT_EQ(scene.getNumberOfTimeSteps(), 20000U);
     EXPECT_EQ(partner.calls.size(), 3U + 5000U);
     const double left = scene.motion(0).velocity.z();
     EXPECT_NEAR(grainMass * left + mass * partner.speed, -grainMass * speed, 1e-12 * grainMass * speed);
     EXPECT_NEAR(left / -speed, (grainMass - mass) / (grainMass + mass), 0.005);
-    EXPECT_NEAR(wall->getPosition(0).z(), partner.height, 1e-12);
+    EXPECT_NEAR(scene.wall->getPosition(0).z(), partner.height, 1e-12);
+}
+
+/// Displacements are those from the shape as it was set, also where the wall has moved before a restart: it
+/// stays where the partner is, and both go on bit for bit.
+TEST(PreciceWall, goesOnWithItsPartner) {
+    const support::TestFolder folder;
+    const std::string file = folder.name() + ".h5";
+    Coupled whole(0.2);
+    whole.initialise();
+    StandIn partner{.mass = 0.7 * grainMass, .window = Coupled::window, .end = 2e-3, .speed = -0.05};
+    whole.runWith(partner, 5e-4);  // in the middle of the touch
+    ASSERT_GT(std::abs(partner.height), 1e-5);
+    ASSERT_GT(whole.contactForceOn(0).norm(), 0);
+    whole.writeRestart(file);
+    StandIn again = partner;
+    whole.runWith(partner, infinity);
+
+    Coupled resumed(0.2);
+    resumed.restartFrom(file);
+    resumed.initialise();
+    resumed.runWith(again, infinity);
+    EXPECT_EQ(resumed.getNumberOfTimeSteps(), 2000U);
+    EXPECT_NEAR(resumed.wall->getPosition(0).z(), again.height, 1e-12);
+    EXPECT_EQ(again.height, partner.height);
+    EXPECT_EQ(again.speed, partner.speed);
+    EXPECT_EQ(stateHash(resumed.particleHandler.store()), stateHash(whole.particleHandler.store()));
+}
+
+/// Where a window begins, the step may be another one; within it, not: the wall would go further or less far
+/// than its partner.
+TEST(PreciceWall, refusesAnotherStepWithinAWindow) {
+    Coupled scene(0.1);
+    scene.initialise();
+    StandIn partner{.mass = 1, .window = Coupled::window, .end = 1};
+    PreciceWall coupling(partner, *scene.wall, {.mesh = "Wall"});
+    const auto go = [&](double step) {
+        coupling.beforeStep(step);
+        scene.steps(1);
+        coupling.afterStep();
+    };
+    go(1e-6), go(1e-6);
+    const std::string text = support::refusal([&] { go(2e-6); });
+    EXPECT_TRUE(support::isOneSentence(text));
+    EXPECT_TRUE(support::contains(text, "from 1e-06 to 2e-06 s in a window"));
+    go(1e-6), go(1e-6);
+    scene.setTimeStep(2e-6);
+    go(2e-6), go(2e-6);
+    EXPECT_NEAR(partner.time, 2 * Coupled::window, 1e-18);
 }
 
 TEST(PreciceWall, refusesWhatItCannotDo) {

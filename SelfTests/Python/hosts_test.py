@@ -182,6 +182,76 @@ def test_refusals_of_fluids(tmp_path, monkeypatch):
         fluid.pressure_drop
 
 
+WRONG_ARGUMENTS = {
+    "density": ("heavy", r"density must be a number \(kg/m\^3\); it is 'heavy'"),
+    "viscosity": (None, r"viscosity must be a number \(Pa s\); it is None"),
+    "drag_law": (3, r"drag_law must be a name of drag_laws\(\); it is 3"),
+    "model": (1.0, "model must be 'A' or 'B'; it is 1.0"),
+    "superficial_speed": ("x", r"superficial_speed must be a number \(m/s\), or a function .*; it is 'x'"),
+    "lowest": ("x", "lowest must be three numbers; it is 'x'"),
+    "highest": ((1, 2), r"highest must be three numbers; it is \(1, 2\)"),
+    "cells": ((1, 1, 2.5), r"cells must be three whole numbers \(nx, ny, nz\); it is \(1, 1, 2.5\)"),
+}
+
+
+@pytest.mark.parametrize("name, wrong, words", [(k, *v) for k, v in WRONG_ARGUMENTS.items()], ids=WRONG_ARGUMENTS.keys())
+def test_arguments_of_fluids_of_another_type(name, wrong, words):
+    given = {"lowest": (0, 0, 0), "highest": (1, 1, 1), "cells": (1, 1, 5), "superficial_speed": 0.1, **WATER, name: wrong}
+    with pytest.raises(pendular.InputError, match=r"add_fluid\(\): " + words) as caught:
+        pendular.Scene().add_fluid(**given)
+    assert "\n" not in str(caught.value) and str(caught.value).endswith(".")
+
+
+WRONG_CALLS = {
+    "drag_force": (lambda: pendular.drag_force("WenYu", "x", 1, 1, **WATER), r"drag_force\(\): porosity .* it is 'x'"),
+    "no name of a law": (lambda: pendular.drag_force(3, 1, 1, 1, **WATER), "law must be a name .* it is 3"),
+    "terminal_speed": (lambda: pendular.terminal_speed(1e-3, [1, 2], **WATER), r"grain_density .* it is \[1, 2\]"),
+    "balanced_speed": (lambda: pendular.balanced_speed("WenYu", 0.5, 1e-3, 2500, density="x", viscosity=1), "density .* 'x'"),
+    "scale": (lambda: host_wall(scale="large"), "scale must be a number; it is 'large'"),
+    "triangles": (lambda: host_wall(triangles="x"), "triangles must be rows of 3 numbers; it is 'x'"),
+    "vertices": (lambda: host_wall(mesh="x"), "vertices must be rows of 3 numbers; it is 'x'"),
+    "no mesh": (lambda: host_wall(mesh=3, triangles=None), "A mesh is the name of a file, or an array"),
+    "time": (lambda: host_wall().set_vertex_targets(SQUARE, "soon"), r"time must be a number \(s\); it is 'soon'"),
+    "a function that is none": (lambda: column(host=type("Host", (), {"find_velocity": 3})()),
+                                r"find_velocity of the host must be a function; it is 3"),
+}
+
+
+def host_wall(mesh=SQUARE, triangles=TRIANGLES, **more):
+    scene = pendular.Scene()
+    glass = scene.add_species("LinearViscoelastic", density=2500, stiffness=200)
+    return scene.add_host_wall(glass, mesh, triangles, **more)
+
+
+@pytest.mark.parametrize("do, words", WRONG_CALLS.values(), ids=WRONG_CALLS.keys())
+def test_other_arguments_of_another_type(do, words):
+    with pytest.raises(pendular.InputError, match=words) as caught:
+        do()
+    assert "\n" not in str(caught.value) and str(caught.value).endswith(".")
+
+
+@pytest.mark.parametrize("answer, words", [("fast", r"must be a number \(m/s\); it is 'fast'"), (None, "it is None"),
+                                           (float("nan"), "= nan m/s"), (float("inf"), "= inf m/s")])
+def test_what_a_function_of_the_speed_returns(answer, words):
+    """It is right at first."""
+    scene, _ = column(superficial_speed=lambda time: 0.02 if time < 1e-4 else answer)
+    with pytest.raises(pendular.RunError, match="superficial_speed.*" + words) as caught:
+        scene.run(steps=20)
+    assert "\n" not in str(caught.value) and scene.steps == 5
+
+
+def test_a_host_that_returns_no_number():
+    class Wrong(Column):
+        def find_pressure(self, fluid, gravity):
+            pressure = np.zeros((*self.shape, 3))
+            pressure[3, 0, 0, 1] = np.nan
+            return pressure
+
+    scene, _ = column(host=Wrong(0))
+    with pytest.raises(pendular.RunError, match=r"find_pressure\(\): the host returned nan for cell 3"):
+        scene.run(steps=1)
+
+
 def test_ball_on_a_plate_of_modes():
     """The rebound of the converged sum of modes, 0.19323 (an independent program), and of Zener's plate without end, 0.19354."""
     pytest.importorskip("matplotlib")

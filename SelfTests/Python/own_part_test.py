@@ -1,5 +1,6 @@
 """A part of the step whose phases are functions of Python: still air, against its closed form."""
 import gc
+import signal
 import subprocess
 import sys
 import weakref
@@ -135,16 +136,121 @@ def test_misuse(part, words):
         scene.add_part(StillAir("other"))
 
 
-def test_a_scene_and_a_part_that_hold_each_other_are_collected():
+@pytest.mark.parametrize("answer, words", [
+    ("text", "must be a dict of numbers by name; it is 'text'"), (None, "a dict .* it is None"),
+    ([1, 2], r"it is \[1, 2\]"), ({"mass (kg)": "heavy"}, "for 'mass .kg.' must be a number; it is 'heavy'"),
+    ({"mass (kg)": None}, "must be a number; it is None")])
+def test_a_summary_of_another_type(answer, words):
+    class Part:
+        name = "own"
+
+        def summary(self):
+            return answer
+
+    scene, _ = flight("run")
+    scene.write_summary()
+    scene.add_part(Part())
+    with pytest.raises(pendular.InputError, match=r"part 'own': what summary\(\) returns .*" + words) as caught:
+        scene.run(steps=1)
+    assert "\n" not in str(caught.value) and str(caught.value).endswith(".")
+
+
+class Interrupted(StillAir):
+    """Ctrl-C comes in the middle of its work, in the 30th step. (A signal of the operating system may come a little later.)"""
+    times = 1
+
+    def prepare(self, scene, length):
+        if scene.steps == 29:
+            for _ in range(self.times):
+                signal.raise_signal(signal.SIGINT)
+        super().prepare(scene, length)
+
+
+def interrupted_flight(name, times=1):
+    scene, _ = flight(name)
+    air = Interrupted("other air")
+    air.times = times
+    scene.add_part(air)
+    return scene, air
+
+
+def test_control_c_within_prepare_waits_for_the_end_of_the_step():
+    """The step is whole, in the scene and in the restart file; the scene goes on with the bits of a run without the stop."""
+    whole, _ = interrupted_flight("whole", times=0)
+    whole.run(steps=60)
+    scene, air = interrupted_flight("run")
+    scene.keep_restart_file()
+    with pytest.raises(KeyboardInterrupt):
+        scene.run(steps=60)
+    assert scene.steps == 30 and not scene.has_ended and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    again, _ = interrupted_flight("again")
+    again.restart_from("run-restart.h5")
+    for one in (scene, again):
+        one.run(steps=30)
+        assert one.hash() == whole.hash()
+
+
+def test_a_second_control_c_does_not_wait():
+    scene, air = interrupted_flight("run", times=2)
+    with pytest.raises(KeyboardInterrupt):
+        scene.run(steps=60)
+    assert scene.has_ended and scene.steps == 29
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_a_handler_of_the_script_stays():
+    heard = []
+    before = signal.signal(signal.SIGINT, lambda *_: heard.append(1))
+    try:
+        scene, _ = interrupted_flight("run")
+        scene.run(steps=60)
+        assert heard == [1] and scene.steps == 60
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+# Functions and objects that know their scene, which keeps them.
+KNOWING = {
+    "part": lambda s, know: None,  # which the test adds
+    "host": lambda s, know: fluid_in(s, host=Host(know)),
+    "speed": lambda s, know: fluid_in(s, superficial_speed=lambda t: know(0.01, s)),
+    "motion": lambda s, know: s.add_plane(s.species[0], (0, 0, -1), (0, 0, -0.01)).set_motion(
+        lambda t: know((0, 0, 0), s)),
+    "outlet": lambda s, know: s.add_outlet(normal=(0, 0, -1), point=(0, 0, 0), condition=lambda i: know(False, s)),
+    "frames": lambda s, know: s.write_hdf5(1, fields={"mine": lambda _: know(s.mass, s)}),
+    "calls": lambda s, know: (s.every_steps(1, lambda _: know(None, s)), s.at_end(lambda _: know(None, s))),
+}
+
+
+class Host:
+    def __init__(self, know):
+        self.know = know
+
+    def find_velocity(self, fluid, time):
+        return self.know((0, 0, 0.01), self)
+
+    def find_pressure(self, fluid, gravity):
+        return (0, 0, 0)
+
+
+def fluid_in(scene, **computed):
+    return scene.add_fluid((-1, -1, -1), (2, 1, 1), (1, 1, 8), density=1, viscosity=1e-5, **computed)
+
+
+@pytest.mark.parametrize("add", KNOWING.values(), ids=KNOWING.keys())
+def test_a_scene_and_what_it_calls_that_hold_each_other_are_collected(add):
     def lost():
-        scene, air = flight()
+        scene, air = flight("run")
         air.scene = scene
+        kept = [scene]
+        add(scene, lambda answer, _: answer if kept else None)
         scene.run(steps=2)
-        return weakref.ref(scene)
+        assert np.isfinite(scene.velocity).all()
+        return weakref.ref(scene), weakref.ref(air)
 
     gone = lost()
     gc.collect()
-    assert gone() is None
+    assert [of() for of in gone] == [None, None]
 
 
 def test_bodies_that_are_held_in_part():

@@ -28,6 +28,29 @@ def test_frames_are_those_of_the_scene():
             assert np.array_equal(its_contacts[name], contacts[time][name]), name
 
 
+def test_fields_of_functions_where_all_grains_are_new():
+    """Those of a frame are of its own grains, where they are others than those of the frame before, more, fewer or none."""
+    scene = tower("run")
+    scene.write_hdf5(1e-3, doubles=True, fields={"height_m": lambda s: s.position[:, 2]},
+                     vectors={"place_m": lambda s: s.position})
+
+    def renew(scene):
+        count = {1: 7, 2: 0, 3: 2}.get(round(scene.time / 1e-3), len(scene))
+        if count != len(scene):
+            scene.remove_grains(scene.identity)
+            if count:
+                scene.add_grains(scene.glass, [[0.01 * k, 0.02, 0.1 + 0.01 * k] for k in range(count)], 1e-3)
+
+    scene.every_time(1e-3, renew)
+    scene.run(5e-3)
+    scene.finish()
+    frames = [columns for _, columns in pendular.frames("run-fields.h5")]
+    assert {len(columns["position_m"]) for columns in frames} == {4, 7, 0, 2}
+    for columns in frames:
+        assert np.array_equal(columns["height_m"], columns["position_m"][:, 2])
+        assert np.array_equal(columns["place_m"], columns["position_m"])
+
+
 def test_a_part_that_is_not_there():
     scene = tower("run")
     scene.write_hdf5(1e-3, contacts=False)

@@ -53,6 +53,38 @@ def test_an_attribute_that_is_nearly_one_of_the_scene(wrong, right):
         scene.time = 3
 
 
+@pytest.mark.parametrize("name, words", [
+    ("walls", "walls can be read, but not assigned"), ("steps", "steps can be read, but not assigned"),
+    ("inlet", r"inlet\(\) is a method and cannot be assigned"), ("run", r"run\(\) is a method"),
+    ("inlets", r"no attribute inlets; its inlet\(\) is a method and cannot be assigned"),
+    ("wals", "no attribute wals; its walls can be read, but not assigned")])
+def test_what_cannot_be_assigned(name, words):
+    scene = tower()
+    with pytest.raises(AttributeError, match=words) as caught:
+        setattr(scene, name, [])
+    assert str(caught.value).endswith(".") and str(caught.value).count(". ") == 0
+    scene.run(steps=1)
+
+
+def test_attributes_of_a_class_of_your_own():
+    """They are its own, also where the scene has a method of the name."""
+    class Drum(pendular.Scene):
+        speed = 1
+
+        def run(self):
+            return "mine"
+
+        @property
+        def turns(self):
+            return 2 * self.speed
+
+    drum = Drum()
+    drum.speed, drum.run = 3, lambda: "other"
+    assert drum.turns == 6 and drum.run() == "other"
+    with pytest.raises(AttributeError, match="turns can be read"):
+        drum.turns = 1
+
+
 def test_walls_and_species_of_a_scene():
     scene = tower()
     steel = scene.add_species("HertzianViscoelasticMindlin", density=7800, young_modulus=1e7, poisson_ratio=0.3,

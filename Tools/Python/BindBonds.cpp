@@ -22,7 +22,7 @@ using Stiffness = std::function<BondStiffness(const BondSection&, double)>;
 
 /// A function of Python: the length (m) gives four stiffnesses.
 Stiffness stiffnessBy(PythonScene& scene, py::function function) {
-    return [kept = shared(std::move(function)), &scene](const BondSection&, double length) {
+    return [kept = scene.keep(std::move(function)), &scene](const BondSection&, double length) {
         return scene.ask([&] {
             const Doubles k = Doubles::ensure((*kept)(length));
             if (!k || k.size() != 4) {

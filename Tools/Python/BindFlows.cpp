@@ -60,8 +60,8 @@ std::size_t addOutlet(PythonScene& scene, const std::optional<AnyRegion>& region
     }
     if (leastAge > 0) outlet.setLeastAge(leastAge);
     if (condition)
-        outlet.setCondition([kept = shared(std::move(*condition)), &scene](const GrainReference& grain) {
-            return scene.ask([&] { return (*kept)(grain.getId()).cast<bool>(); });
+        outlet.setCondition([kept = scene.keep(std::move(*condition)), &scene](const GrainReference& grain) {
+            return scene.ask([&] { return isTrue((*kept)(grain.getId())); });
         });
     return scene.scene().outletHandler.copyAndAddObject(outlet);
 }

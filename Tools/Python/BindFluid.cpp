@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "Kernel/Fluid/ColumnFlow.h"
@@ -40,12 +42,16 @@ struct FluidHandle : Handle {
 class PythonFluid : public FluidHost {
 public:
     PythonFluid(PythonScene& of, py::object given) : scene(of) {
-        for (const char* const name : {"find_velocity", "find_pressure"}) {
-            if (!py::hasattr(given, name))
-                throw InputError(std::string("add_fluid(): the host has no function ") + name + "().");
-            functions.emplace(name, shared(given.attr(name)));
+        for (const char* const name : {"find_velocity", "find_pressure", "take"}) {
+            if (!py::hasattr(given, name)) {
+                if (std::string_view(name) == "take") continue;  // it may do without
+                throw InputError(fmt::format("add_fluid(): the host has no function {}().", name));
+            }
+            const py::object function = given.attr(name);
+            if (PyCallable_Check(function.ptr()) == 0)
+                refuseGiven(function, fmt::format("add_fluid(): {} of the host", name), "a function");
+            functions.emplace(name, scene.keep(function));
         }
-        if (py::hasattr(given, "take")) functions.emplace("take", shared(given.attr("take")));
     }
 
     void findVelocity(const FluidGrid& /*grid*/, FluidFields& fields, double time) override {
@@ -82,15 +88,15 @@ private:
                              "(): the host must return three numbers for each cell, as an array of the "
                              "shape (nz, ny, nx, 3), or three for all of them.");
         }
+        for (py::ssize_t k = 0; k < rows.size(); ++k)
+            if (!std::isfinite(rows.data()[k]))
+                throw InputError(fmt::format(
+                    "{}(): the host returned {} for cell {} (x fastest, from 0); it must be a finite "
+                    "number.",
+                    name, rows.data()[k], k / 3));
         const double* from = rows.data();
-        for (Vector<double>& vector : field) {
-            vector = {from[0], from[1], from[2]};
-            if (!isFinite(vector))
-                throw InputError(name + "(): the host returned a number that is not finite.");
-            from += 3;
-        }
+        for (Vector<double>& vector : field) vector = {from[0], from[1], from[2]}, from += 3;
     }
-    static bool isFinite(const Vector<double>& v) { return std::isfinite(v.x + v.y + v.z); }
 
     PythonScene& scene;
     std::map<std::string, std::shared_ptr<py::function>> functions;
@@ -105,27 +111,49 @@ PressureModel modelNamed(const std::string& model) {
 /// m/s over the time: a number, or a function of Python.
 std::function<double(double)> speedOf(PythonScene& scene, const py::object& given) {
     if (PyCallable_Check(given.ptr()))
-        return [kept = shared(py::function(given)), &scene](double time) {
-            return scene.ask([&] { return (*kept)(time).cast<double>(); });
+        return [kept = scene.keep(py::function(given)), &scene](double time) {
+            return scene.ask([&] {
+                return valueOf<double>((*kept)(time), "What the function superficial_speed returns",
+                                       "a number (m/s)");
+            });
         };
-    const auto value = given.cast<double>();
+    const auto value = valueOf<double>(given, "add_fluid(): superficial_speed",
+                                       "a number (m/s), or a function of the time (s) that returns one");
     checkValue("add_fluid()", "superficial_speed", value, "m/s", anyFinite);
     return [value](double) { return value; };
 }
 
-FluidHandle addFluid(PythonScene& scene, const Vec3D& lowest, const Vec3D& highest,
-                     const std::array<int, 3>& cells, double density, double viscosity,
-                     const std::string& law, const std::string& model, const py::object& superficialSpeed,
+double numberFor(const std::string& function, const char* name, const Given<double>& given,
+                 const char* unit) {
+    return valueOf(given, function + "(): " + name, fmt::format("a number ({})", unit));
+}
+
+FluidMaterial materialOf(const std::string& function, const Given<double>& density,
+                         const Given<double>& viscosity) {
+    const FluidMaterial fluid{numberFor(function, "density", density, "kg/m^3"),
+                              numberFor(function, "viscosity", viscosity, "Pa s")};
+    checkFields(fluid);
+    return fluid;
+}
+
+FluidHandle addFluid(PythonScene& scene, const Given<Vec3D>& lowest, const Given<Vec3D>& highest,
+                     const Given<std::array<int, 3>>& cells, const Given<double>& density,
+                     const Given<double>& viscosity, const Given<std::string>& law,
+                     const Given<std::string>& model, const py::object& superficialSpeed,
                      const py::object& host) {
     if (superficialSpeed.is_none() == host.is_none())
         throw InputError(
             "add_fluid() takes a superficial_speed (m/s), of a column, or a host that computes the fluid.");
-    const FluidGrid grid{toVector(lowest), toVector(highest), cells};
-    const FluidMaterial fluid{density, viscosity};
+    const FluidGrid grid{toVector(vectorOf(lowest.object, "add_fluid(): lowest")),
+                         toVector(vectorOf(highest.object, "add_fluid(): highest")),
+                         valueOf(cells, "add_fluid(): cells", "three whole numbers (nx, ny, nz)")};
+    const FluidMaterial fluid = materialOf("add_fluid", density, viscosity);
+    const DragLaw& drag = dragLaw(valueOf(law, "add_fluid(): drag_law", "a name of drag_laws()"));
+    const PressureModel pressure = modelNamed(valueOf(model, "add_fluid(): model", "'A' or 'B'"));
     const auto add = [&](auto computes) {
         auto* const flow = computes.get();
-        return std::pair{flow, &scene.scene().addPart<FluidPart>(grid, fluid, dragLaw(law),
-                                                                 std::move(computes), modelNamed(model))};
+        return std::pair{flow,
+                         &scene.scene().addPart<FluidPart>(grid, fluid, drag, std::move(computes), pressure)};
     };
     if (host.is_none()) {
         const auto [flow, part] = add(std::make_unique<ColumnFlow>(fluid, speedOf(scene, superficialSpeed)));
@@ -154,14 +182,37 @@ py::array cellCentres(const FluidHandle& fluid) {
     return fluid.vectors(centres);
 }
 
-double dragForce(const std::string& law, double porosity, double slip, double diameter, double density,
-                 double viscosity) {
-    const FluidMaterial fluid{density, viscosity};
-    checkFields(fluid);
-    checkValue("drag_force()", "porosity", porosity, "", {0, 1, false, true});
-    checkValue("drag_force()", "slip", slip, "m/s", notNegative);
-    checkValue("drag_force()", "diameter", diameter, "m", positive);
-    return dragLaw(law).resistance({porosity, slip, diameter, fluid}) * slip;
+const DragLaw& lawFor(const std::string& function, const Given<std::string>& law) {
+    return dragLaw(valueOf(law, function + "(): law", "a name of drag_laws()"));
+}
+
+double dragForceOf(const Given<std::string>& law, const Given<double>& porosity, const Given<double>& slip,
+                   const Given<double>& diameter, const Given<double>& density,
+                   const Given<double>& viscosity) {
+    const std::string name = "drag_force";
+    return dragForce(lawFor(name, law), numberFor(name, "porosity", porosity, "1"),
+                     numberFor(name, "slip", slip, "m/s"), numberFor(name, "diameter", diameter, "m"),
+                     materialOf(name, density, viscosity));
+}
+
+double terminalSpeedOf(const Given<double>& diameter, const Given<double>& grainDensity,
+                       const Given<double>& density, const Given<double>& viscosity,
+                       const Given<double>& gravity) {
+    const std::string name = "terminal_speed";
+    return terminalSpeed(numberFor(name, "diameter", diameter, "m"),
+                         numberFor(name, "grain_density", grainDensity, "kg/m^3"),
+                         materialOf(name, density, viscosity), numberFor(name, "gravity", gravity, "m/s^2"));
+}
+
+double balancedSpeedOf(const Given<std::string>& law, const Given<double>& porosity,
+                       const Given<double>& diameter, const Given<double>& grainDensity,
+                       const Given<double>& density, const Given<double>& viscosity,
+                       const Given<double>& gravity) {
+    const std::string name = "balanced_speed";
+    return balancedSpeed(lawFor(name, law), numberFor(name, "porosity", porosity, "1"),
+                         numberFor(name, "diameter", diameter, "m"),
+                         numberFor(name, "grain_density", grainDensity, "kg/m^3"),
+                         materialOf(name, density, viscosity), numberFor(name, "gravity", gravity, "m/s^2"));
 }
 
 void bindDragLaws(py::module_& module) {
@@ -174,35 +225,24 @@ void bindDragLaws(py::module_& module) {
         },
         "Names of the drag laws that add_fluid() takes.");
     module.def(
-        "drag_force", &dragForce, py::arg("law"), py::arg("porosity"), py::arg("slip"), py::arg("diameter"),
+        "drag_force", &dragForceOf, py::arg("law"), py::arg("porosity"), py::arg("slip"), py::arg("diameter"),
         py::kw_only(), py::arg("density"), py::arg("viscosity"),
         "N: the drag of a law (model A) on a sphere (diameter, m) among others (porosity, 1) in a fluid "
         "(density, kg/m^3; viscosity, Pa s) that goes past it with this velocity between the grains "
-        "(slip, m/s).");
-    module.def(
-        "terminal_speed",
-        [](double diameter, double grainDensity, double density, double viscosity, double gravity) {
-            return terminalSpeed(diameter, grainDensity, {density, viscosity}, gravity);
-        },
-        py::arg("diameter"), py::arg("grain_density"), py::kw_only(), py::arg("density"),
-        py::arg("viscosity"), py::arg("gravity") = 9.81,
-        comment("terminalSpeed",
-                "diameter: m; grain_density: kg/m^3; density, "
-                "viscosity: of the fluid, kg/m^3 and Pa s; gravity: "
-                "m/s^2."));
-    module.def(
-        "balanced_speed",
-        [](const std::string& law, double porosity, double diameter, double grainDensity, double density,
-           double viscosity, double gravity) {
-            return balancedSpeed(dragLaw(law), porosity, diameter, grainDensity, {density, viscosity},
-                                 gravity);
-        },
-        py::arg("law"), py::arg("porosity"), py::arg("diameter"), py::arg("grain_density"), py::kw_only(),
-        py::arg("density"), py::arg("viscosity"), py::arg("gravity") = 9.81,
-        comment("balancedSpeed",
-                "law: the name of a drag law; porosity: 1; diameter: of the grains, m; "
-                "grain_density: kg/m^3; density, viscosity: of the fluid, kg/m^3 and Pa s; gravity: "
-                "m/s^2."));
+        "(slip, m/s). As in a scene, it is that at a porosity of 0.35 below that.");
+    module.def("terminal_speed", &terminalSpeedOf, py::arg("diameter"), py::arg("grain_density"),
+               py::kw_only(), py::arg("density"), py::arg("viscosity"), py::arg("gravity") = 9.81,
+               comment("terminalSpeed",
+                       "diameter: m; grain_density: kg/m^3; density, "
+                       "viscosity: of the fluid, kg/m^3 and Pa s; gravity: "
+                       "m/s^2."));
+    module.def("balanced_speed", &balancedSpeedOf, py::arg("law"), py::arg("porosity"), py::arg("diameter"),
+               py::arg("grain_density"), py::kw_only(), py::arg("density"), py::arg("viscosity"),
+               py::arg("gravity") = 9.81,
+               comment("balancedSpeed",
+                       "law: the name of a drag law; porosity: 1; diameter: of the grains, m; "
+                       "grain_density: kg/m^3; density, viscosity: of the fluid, kg/m^3 and Pa s; gravity: "
+                       "m/s^2."));
 }
 
 }  // namespace

@@ -30,7 +30,8 @@ std::vector<HostWall::Corners> cornersOf(const ArrayLike& given) {
 }
 
 WallHandle addHostWall(PythonScene& scene, const SpeciesHandle& species, const py::object& mesh,
-                       const std::optional<ArrayLike>& triangles, double scale) {
+                       const std::optional<ArrayLike>& triangles, const Given<double>& unit) {
+    const double scale = valueOf(unit, "add_host_wall(): scale", "a number");
     HostWall wall;
     if (triangles) {
         std::vector<Vec3D> vertices = vectorsOf({mesh}, "vertices");
@@ -56,8 +57,9 @@ void bindHostWalls(py::module_& module, SceneClass& scene) {
             py::arg("velocities"), comment("HostWall::setVelocities"))
         .def(
             "set_vertex_targets",
-            [](const WallHandle& w, const ArrayLike& places, double time) {
-                hostWall(w).setTargets(vectorsOf(places, "places"), time);
+            [](const WallHandle& w, const ArrayLike& places, const Given<double>& time) {
+                hostWall(w).setTargets(vectorsOf(places, "places"),
+                                       valueOf(time, "set_vertex_targets(): time", "a number (s)"));
             },
             py::arg("places"), py::arg("time"), comment("HostWall::setTargets"))
         .def_property_readonly(

@@ -41,7 +41,7 @@ Membrane& ownMembrane(const WallHandle& wall, std::string_view what) {
 /// The vertices for which a function of Python is true.
 void hold(const WallHandle& wall, const py::function& where, const Vec3D& velocity) {
     ownMembrane(wall, "vertices")
-        .hold([&](const Vec3D& place) { return wall.owner->ask([&] { return where(place).cast<bool>(); }); },
+        .hold([&](const Vec3D& place) { return wall.owner->ask([&] { return isTrue(where(place)); }); },
               velocity);
 }
 
@@ -66,7 +66,7 @@ WearLaw wearLaw(const std::string& law, const py::kwargs& given) {
     const auto value = [&](const char* name) {
         if (!given.contains(name))
             throw InputError(std::string("keep_wear('") + law + "') needs " + name + ".");
-        return given[name].cast<double>();
+        return valueOf<double>(given[name], name, "a number");
     };
     if (law == "none") return WearLaw::none();
     if (law == "reye") return WearLaw::reye(value("factor"));

@@ -22,7 +22,7 @@ class RowsOfFrame {
 public:
     /// @param numbers of a row: 1, or 3 of a vector
     RowsOfFrame(PythonScene& of, std::string called, py::function function, py::ssize_t numbers)
-        : scene(of), name(std::move(called)), make(shared(std::move(function))), width(numbers) {}
+        : scene(of), name(std::move(called)), make(of.keep(std::move(function))), width(numbers) {}
 
     /// Those of one grain.
     const double* operator()(std::size_t identity) {

@@ -42,10 +42,16 @@ public:
     void addTo(SummaryRows& rows) const override {
         scene.ask([&] {
             if (!py::hasattr(object(), "summary")) return;
-            const py::dict made(object().attr("summary")());
-            for (const auto& [quantity, value] : made)
-                rows.addNumber(fmt::format("{}: {}", called, std::string(py::str(quantity))),
-                               value.template cast<double>(), "");
+            const std::string what = fmt::format("part '{}': what summary() returns", called);
+            const py::object answer = object().attr("summary")();
+            if (!py::isinstance<py::dict>(answer)) refuseGiven(answer, what, "a dict of numbers by name");
+            const py::dict made(answer);
+            for (const auto& [quantity, value] : made) {
+                const std::string name = py::str(quantity);
+                rows.addNumber(fmt::format("{}: {}", called, name),
+                               valueOf<double>(value, fmt::format("{} for '{}'", what, name), "a number"),
+                               "");
+            }
         });
     }
 

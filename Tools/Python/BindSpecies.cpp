@@ -32,12 +32,7 @@ Values valuesOf(const py::kwargs& given) {
     Values values;
     for (const auto& [key, value] : given) {
         const std::string name = py::str(key);
-        try {
-            values[camelCase(name)] = value.cast<double>();
-        } catch (const py::cast_error&) {
-            throw InputError(
-                fmt::format("{} must be a number; it is {}.", name, std::string(py::repr(value))));
-        }
+        values[camelCase(name)] = valueOf<double>(value, name, "a number");
     }
     return values;
 }

@@ -123,7 +123,7 @@ Eigen::Isometry3d poseOf(const py::object& answer) {
 /// The pose of a wall as a function of Python: it returns a shift (m), or a matrix 4 x 4.
 void setMotion(const WallHandle& handle, py::function function) {
     handle.as<RigidWall>("motion").setMotion(
-        [kept = shared(std::move(function)), scene = handle.owner](double time) {
+        [kept = handle.owner->keep(std::move(function)), scene = handle.owner](double time) {
             return scene->ask([&] { return poseOf((*kept)(time)); });
         });
 }

@@ -23,7 +23,11 @@ namespace {
 /// Lines of the log go to a function of Python until the interpreter ends.
 void setLog(const py::object& function) {
     if (function.is_none()) return setLogSink({});
-    setLogSink([kept = shared(py::function(function))](LogLevel level, std::string_view text) {
+    const std::shared_ptr<py::function> kept(new py::function(function), [](py::function* dropped) {
+        const py::gil_scoped_acquire python;
+        delete dropped;
+    });
+    setLogSink([kept](LogLevel level, std::string_view text) {
         const py::gil_scoped_acquire python;
         try {
             (*kept)(static_cast<int>(level), std::string(text));

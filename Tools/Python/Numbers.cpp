@@ -15,8 +15,10 @@ namespace pendular::python {
 
 namespace {
 
+/// In one line.
 std::string shown(py::handle given) {
-    std::string text = py::str(py::repr(given));
+    std::string text =
+        py::str(" ").attr("join")(py::str(py::repr(given)).attr("split")()).cast<std::string>();
     if (text.size() > 60) text = text.substr(0, 57) + "...";
     return text;
 }
@@ -32,7 +34,7 @@ Array converted(const py::array& any, std::string_view name, std::string_view wh
     auto made = Converted::ensure(any);
     if (!made) {
         PyErr_Clear();
-        throw InputError(fmt::format("{} must be {}; it is {}.", name, what, shown(any)));
+        refuseGiven(any, name, what);
     }
     return Array::ensure(made);
 }
@@ -43,7 +45,7 @@ Array numbersOf(py::handle given, std::string_view name, std::string_view what) 
     const py::array any = py::array::ensure(given);
     if (!any || std::string_view("bifu").find(any.dtype().kind()) == std::string_view::npos) {
         PyErr_Clear();
-        throw InputError(fmt::format("{} must be {}; it is {}.", name, what, shown(given)));
+        refuseGiven(given, name, what);
     }
     return converted<Array>(any, name, what);
 }
@@ -58,10 +60,19 @@ Doubles copied(const std::array<double, n>& numbers, std::vector<py::ssize_t> sh
 
 }  // namespace
 
-Vec3D vectorOf(py::handle given) {
-    const Doubles numbers = numbersOf<Doubles>(given, "A vector", "three numbers");
-    if (numbers.ndim() != 1 || numbers.size() != 3)
-        throw InputError(fmt::format("A vector must be three numbers; it is {}.", shown(given)));
+void refuseGiven(py::handle given, std::string_view name, std::string_view what) {
+    throw InputError(fmt::format("{} must be {}; it is {}.", name, what, shown(given)));
+}
+
+bool isTrue(const py::object& given) {
+    const int answer = PyObject_IsTrue(given.ptr());
+    if (answer < 0) throw py::error_already_set();
+    return answer > 0;
+}
+
+Vec3D vectorOf(py::handle given, std::string_view name) {
+    const Doubles numbers = numbersOf<Doubles>(given, name, "three numbers");
+    if (numbers.ndim() != 1 || numbers.size() != 3) refuseGiven(given, name, "three numbers");
     return {numbers.at(0), numbers.at(1), numbers.at(2)};
 }
 
@@ -89,7 +100,7 @@ std::vector<std::uint32_t> identitiesOf(const ArrayLike& given, std::string_view
     if (!any || any.ndim() > 1 ||
         (any.size() > 0 && std::string_view("iu").find(any.dtype().kind()) == std::string_view::npos)) {
         PyErr_Clear();
-        throw InputError(fmt::format("{} must be whole numbers; it is {}.", name, shown(given.given)));
+        refuseGiven(given.given, name, "whole numbers");
     }
     // A number that 64 bits with a sign do not hold becomes negative, which is refused below.
     const Integers numbers = converted<Integers>(any, name, "whole numbers");

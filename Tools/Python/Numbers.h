@@ -27,8 +27,34 @@ struct ArrayLike {
     py::object given;
 };
 
-/// Three numbers. Throws InputError for anything else.
-Vec3D vectorOf(py::handle given);
+/// An argument that help() shows as Of; the function that takes it reads it by valueOf(), with a sentence of
+/// its own for what is none. (pybind11 would list all types of all arguments instead.)
+template <class Of>
+struct Given {
+    py::object object;
+};
+
+/// What InputError says of an argument or an answer that is something else. @param what "a number"
+[[noreturn]] void refuseGiven(py::handle given, std::string_view name, std::string_view what);
+/// Throws InputError, with that, where it is none.
+template <class Of>
+Of valueOf(py::handle given, std::string_view name, std::string_view what) {
+    try {
+        return given.cast<Of>();
+    } catch (const py::cast_error&) {
+        refuseGiven(given, name, what);
+    }
+}
+template <class Of>
+Of valueOf(const Given<Of>& given, std::string_view name, std::string_view what) {
+    return valueOf<Of>(given.object, name, what);
+}
+
+/// Whether Python takes it as true.
+bool isTrue(const py::object& given);
+
+/// Three numbers. Throws InputError, with the name, for anything else.
+Vec3D vectorOf(py::handle given, std::string_view name = "A vector");
 Doubles arrayOf(const Vec3D& vector);
 inline Doubles arrayOf(const Vector<double>& vector) { return arrayOf(toEigen(vector)); }
 Doubles arrayOf(const Eigen::Matrix3d& matrix);
@@ -95,6 +121,16 @@ struct type_caster<pendular::python::ArrayLike> {
     bool load(handle source, bool) {
         if (!source || source.is_none()) return false;
         value.given = reinterpret_borrow<object>(source);
+        return true;
+    }
+};
+
+template <class Of>
+struct type_caster<pendular::python::Given<Of>> {
+    PYBIND11_TYPE_CASTER(pendular::python::Given<Of>, make_caster<Of>::name);
+    bool load(handle source, bool) {
+        if (!source) return false;
+        value.object = reinterpret_borrow<object>(source);
         return true;
     }
 };

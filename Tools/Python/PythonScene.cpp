@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <limits>
 #include <set>
 
@@ -32,6 +33,11 @@ std::string sentenceOf(const py::error_already_set& raised) {
                        std::string(py::str(raised.type().attr("__name__"))));
 }
 
+py::error_already_set keyboardInterrupt() {
+    PyErr_SetNone(PyExc_KeyboardInterrupt);
+    return {};
+}
+
 class AnySimulation final : public Hosted<Simulation<>> {
 public:
     AnySpecies& addSpecies(std::string_view type) override { return *speciesHandler.addByName(type); }
@@ -44,9 +50,12 @@ public:
 
 std::shared_ptr<PythonScene> makeScene() { return std::make_shared<AnySimulation>(); }
 
-std::shared_ptr<py::function> shared(py::function function) {
-    return {new py::function(std::move(function)), [](py::function* dropped) {
+std::shared_ptr<py::function> PythonScene::keep(py::function function) {
+    auto kept = std::make_unique<py::function>(std::move(function));
+    functions->insert(kept.get());
+    return {kept.release(), [all = functions](py::function* dropped) {
                 const py::gil_scoped_acquire python;
+                all->erase(dropped);
                 delete dropped;
             }};
 }
@@ -64,6 +73,7 @@ public:
     Running& operator=(const Running&) = delete;
     ~Running() {
         scene.running = nullptr;
+        scene.interrupts = nullptr;
         all.erase(&scene);
     }
 
@@ -73,6 +83,47 @@ private:
     Busy busy;
     PythonScene& scene;
 };
+
+/// While it lives, Ctrl-C is given to noteInterrupt() of a scene, if this is the main thread and Python would
+/// raise KeyboardInterrupt wherever it is: also in the middle of a function that changes the grains.
+class PythonScene::WaitingInterrupts {
+public:
+    explicit WaitingInterrupts(PythonScene& scene) : signals(py::module_::import("signal")) {
+        before = signals.attr("getsignal")(SIGINT);
+        if (!before.is(signals.attr("default_int_handler"))) return;
+        const py::cpp_function handler([&scene](const py::args&) { scene.noteInterrupt(); });
+        try {
+            signals.attr("signal")(SIGINT, handler);
+            own = handler;
+        } catch (const py::error_already_set& error) {
+            if (!error.matches(PyExc_ValueError)) throw;  // not the main thread
+        }
+    }
+    WaitingInterrupts(const WaitingInterrupts&) = delete;
+    WaitingInterrupts& operator=(const WaitingInterrupts&) = delete;
+    ~WaitingInterrupts() {
+        try {
+            if (own && signals.attr("getsignal")(SIGINT).is(own)) signals.attr("signal")(SIGINT, before);
+        } catch (py::error_already_set& error) {
+            error.discard_as_unraisable("run()");
+        }
+    }
+
+private:
+    py::module_ signals;
+    py::object before, own;
+};
+
+PythonScene::PythonScene() = default;
+PythonScene::~PythonScene() = default;
+
+void PythonScene::letInterruptsWait() { interrupts = std::make_unique<WaitingInterrupts>(*this); }
+
+void PythonScene::noteInterrupt() {
+    if (asking == 0 || isInterrupted) throw keyboardInterrupt();
+    isInterrupted = true;
+    nextLook = 0;
+}
 
 void PythonScene::requireThisThread() const {
     const std::thread::id stepping = thread;
@@ -144,6 +195,7 @@ void PythonScene::look() {
         callDue();
         if (running->getNumberOfTimeSteps() >= nextClock) lookAtClock();
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        if (isInterrupted) throw keyboardInterrupt();
         requireDroppedViews();
     } catch (const py::error_already_set& error) {
         if (!error.matches(PyExc_KeyboardInterrupt)) endBy(error);
@@ -216,6 +268,7 @@ void PythonScene::go(const std::function<void()>& part) {
     const py::object kept = py::cast(this, py::return_value_policy::reference);
     self = kept;
     raised = nullptr;
+    isInterrupted = false;
     lastClock = Clock::now(), nextClock = 0;
     nextProgress = lastClock + progressInterval;
     try {
@@ -235,6 +288,7 @@ void PythonScene::go(const std::function<void()>& part) {
     }
     if (progressFunction) showProgress();
     progressFunction = {};
+    if (isInterrupted && !raised) raised = std::make_exception_ptr(keyboardInterrupt());
     if (!raised) return tellEnd();
     if (keepsRestart && !scene().hasEnded() && views == 0) scene().writeRestart(scene().restartFile());
     std::rethrow_exception(std::exchange(raised, nullptr));
@@ -311,13 +365,18 @@ int PythonScene::visitObjects(visitproc visit, void* arg) const {
     for (const Call& call : calls) Py_VISIT(call.function.ptr());
     for (const py::function& call : callsAtEnd) Py_VISIT(call.ptr());
     for (const py::object& part : parts) Py_VISIT(part.ptr());
+    for (const py::function* const function : *functions) Py_VISIT(function->ptr());
     Py_VISIT(remembered.ptr());
     return 0;
 }
 
+/// Functions that the kernel may call once more, as it completes files, are no longer of use then, but are
+/// there.
 void PythonScene::clearObjects() {
     calls.clear(), callsAtEnd.clear();
     for (py::object& part : parts) part = py::none();
+    const std::vector<py::function*> kept(functions->begin(), functions->end());
+    for (py::function* const function : kept) *function = py::function(py::type::of(py::none()));
     remembered = py::dict();
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -30,10 +31,10 @@ namespace pendular::python {
 /// The interpreter goes on with other threads while the scene steps. It is asked for Ctrl-C every 20 ms.
 class PythonScene {
 public:
-    PythonScene() = default;
+    PythonScene();
     PythonScene(const PythonScene&) = delete;
     PythonScene& operator=(const PythonScene&) = delete;
-    virtual ~PythonScene() = default;
+    virtual ~PythonScene();
 
     [[nodiscard]] virtual Scene& scene() = 0;
     [[nodiscard]] const Scene& scene() const { return const_cast<PythonScene*>(this)->scene(); }
@@ -79,12 +80,14 @@ public:
     void visitRemembered(StateArchive& archive);
 
     /// Calls functions of Python for the kernel, maybe in the middle of a step: they may read the scene, but
-    /// not change it. Where one raises in a run, the run ends, and run() raises the same.
+    /// not change it. Where one raises in a run, the run ends, and run() raises the same. A first Ctrl-C in
+    /// them waits until the step has ended.
     /// @param questions returns nothing of Python's
     template <class Questions>
     auto ask(const Questions& questions) {
         const py::gil_scoped_acquire python;
         const Counted here(asking);
+        if (running && !interrupts) letInterruptsWait();
         try {
             return questions();
         } catch (const py::error_already_set& error) {
@@ -120,6 +123,9 @@ public:
 
     /// This scene in a function that it calls.
     [[nodiscard]] py::handle object() const { return self; }
+    /// A function of Python as one of the kernel, which may copy and drop it in any thread. What the function
+    /// knows may be this scene: the garbage collector sees both.
+    std::shared_ptr<py::function> keep(py::function function);
 
     /// Numbers and arrays of the driver's own that are in restart files, by name.
     py::dict remembered;
@@ -144,6 +150,7 @@ private:
         py::function function;
     };
     class Running;
+    class WaitingInterrupts;
     struct Counted {
         explicit Counted(int& functions) : count(functions) { ++count; }
         Counted(const Counted&) = delete;
@@ -153,6 +160,8 @@ private:
     };
 
     [[noreturn]] void endBy(const py::error_already_set& error);
+    void letInterruptsWait();
+    void noteInterrupt();
     void requireNotRunning() const;
     void requireDroppedViews() const;
     void go(const std::function<void()>& part);
@@ -165,6 +174,8 @@ private:
 
     std::vector<Call> calls;
     std::vector<py::function> callsAtEnd;
+    // What keep() was given and the kernel still has; dropped in the interpreter alone, also after this.
+    std::shared_ptr<std::set<py::function*>> functions = std::make_shared<std::set<py::function*>>();
     Scene* running = nullptr;                       // this scene, while it steps
     mutable std::atomic<std::thread::id> thread{};  // that is at work in the scene, without the interpreter
     int asking = 0;                                 // functions that must not change the scene
@@ -174,7 +185,9 @@ private:
     std::chrono::steady_clock::time_point lastClock, nextProgress;
     py::handle self;  // this, for the functions, while it steps
     py::object progressFunction;
-    std::exception_ptr raised;  // by a function of the driver, or Ctrl-C
+    std::exception_ptr raised;                      // by a function of the driver, or Ctrl-C
+    std::unique_ptr<WaitingInterrupts> interrupts;  // of a run in which functions are asked
+    bool isInterrupted = false;                     // by one that waits for the end of the step
     long views = 0;
     bool keepsRestart = false, endIsTold = false;
     bool isFirstStep = true;  // of a part: by then the state of a restart file is known
@@ -319,9 +332,6 @@ HeldAxes heldAxesNamed(const std::string& axes);
 /// Numbers and arrays by name, as a restart file has them: what is read has the shapes of what is there.
 /// Throws InputError, with the name of the whole, for other things.
 void visitNumbers(StateArchive& archive, py::dict numbers, const std::string& whole);
-
-/// A function of Python as one of the kernel, which may copy and drop it in any thread.
-std::shared_ptr<py::function> shared(py::function function);
 
 }  // namespace pendular::python
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "Kernel/Math/Halving.h"
 #include "Kernel/Species/Adhesion/Shared/ToroidalBridge.h"
 
 namespace pendular {
@@ -20,14 +21,7 @@ PublishedBridge LiquidBridgeWeigert::published(double volume) const {
     };
     if (fourthPowerOfSine(0) > 1 || !attracts(0)) return {[](double) { return 0.0; }, 0};
     double rupture = lianRupture(volume, theta);
-    if (!attracts(rupture)) {
-        double reached = 0;
-        for (int k = 0; k < 50; ++k) {
-            const double middle = 0.5 * (reached + rupture);
-            (attracts(middle) ? reached : rupture) = middle;
-        }
-        rupture = reached;
-    }
+    if (!attracts(rupture)) rupture = turningPoint(0, rupture, attracts, 50).holds;
     return {[=](double gap) { return toroid(gap).boundaryForce(); }, rupture};
 }
 

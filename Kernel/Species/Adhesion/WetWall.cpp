@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "Kernel/Math/Halving.h"
+
 namespace pendular {
 
 namespace {
@@ -33,13 +35,10 @@ double WetWall::largestLength(const ToroidOnLayer<double>& bridge, double radius
     const double stretch = (1 + 0.5 * contactAngle) * (1 + std::sqrt(largestCapillaryNumber));
     if (growingBridge == 0) return stretch * std::cbrt(bridge.volume(0));
     // The volume of a toroid may grow as fast as the cube of its length; then the neck ends it, or 20 R.
-    double shorter = 0, longer = 20 * radius;
-    for (int k = 0; k < 60; ++k) {
-        const double x = 0.5 * (shorter + longer);
-        const bool stands = bridge.radii(x).neck > 0 && x < stretch * std::cbrt(bridge.volume(x));
-        (stands ? shorter : longer) = x;
-    }
-    return longer;
+    const auto stands = [&](double x) {
+        return bridge.radii(x).neck > 0 && x < stretch * std::cbrt(bridge.volume(x));
+    };
+    return turningPoint(0, 20 * radius, stands, 60).fails;
 }
 
 double WetWall::range(const Bodies& bodies) const {

@@ -77,11 +77,17 @@ class Scene(_kernel.Scene):
     if not TYPE_CHECKING:  # mypy would take any name then
 
         def __setattr__(self, name: str, value: Any) -> None:
-            """Attributes of your own are kept, but a name that is nearly one of the scene is a mistake."""
-            if not hasattr(type(self), name) and name not in self.__dict__:
+            """Attributes of your own are kept, but one of the scene that cannot be set, or nearly its name, is a mistake."""
+            if hasattr(type(self), name):
+                fixed = _why_fixed(type(self), name)
+                if fixed:
+                    raise AttributeError(f"A Scene's {fixed}.")
+            elif name not in self.__dict__:
                 near = difflib.get_close_matches(name, dir(type(self)), 1, 0.8)
                 if near:
-                    raise AttributeError(f"A Scene has no attribute {name}; did you mean {near[0]}?")
+                    fixed = _why_fixed(type(self), near[0])
+                    advice = f"its {fixed}." if fixed else f"did you mean {near[0]}?"
+                    raise AttributeError(f"A Scene has no attribute {name}; {advice}")
             super().__setattr__(name, value)
 
     def __enter__(self) -> Scene:
@@ -94,6 +100,15 @@ class Scene(_kernel.Scene):
 
     def __repr__(self) -> str:
         return f"<pendular.Scene {self.name!r}: {len(self)} grains, {self.time:.6g} s>"
+
+
+def _why_fixed(kind: type, name: str) -> str:
+    """Why an attribute of scenes cannot be assigned; empty where it can."""
+    own = getattr(kind, name, None)
+    if isinstance(own, property):
+        return "" if own.fset else f"{name} can be read, but not assigned"
+    is_method = callable(own) and own is getattr(Scene, name, None)
+    return f"{name}() is a method and cannot be assigned" if is_method else ""
 
 
 class _bar:

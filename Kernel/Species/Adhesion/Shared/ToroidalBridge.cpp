@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "Kernel/Math/GaussLegendre.h"
+#include "Kernel/Math/Halving.h"
 
 namespace pendular {
 
@@ -62,11 +63,7 @@ ToroidsOfVolume::ToroidsOfVolume(double liquidVolume, double angle)
     const auto holds = [&](double phi) { return Toroid{phi, 0, contactAngle}.volume() >= volume; };
     for (double phi = 1e-6; phi < 0.7 * pi && high == 0; phi *= 1.1) (holds(phi) ? high : low) = phi;
     if (high == 0) return;
-    for (int k = 0; k < 60; ++k) {
-        const double middle = 0.5 * (low + high);
-        (holds(middle) ? high : low) = middle;
-    }
-    fillingAngle = high;
+    fillingAngle = turningPoint(high, low, holds, 60).holds;
 }
 
 std::optional<Toroid> ToroidsOfVolume::at(double gap) {
