@@ -16,9 +16,11 @@
 #include "Kernel/Mercury/MercuryBoundaries.h"
 #include "Kernel/Mercury/MercuryCG.h"
 #include "Kernel/Mercury/MercuryCopyBoundaries.h"
+#include "Kernel/Mercury/MercuryCurvedWalls.h"
 #include "Kernel/Mercury/MercuryData.h"
 #include "Kernel/Mercury/MercuryDroplets.h"
 #include "Kernel/Mercury/MercuryFiles.h"
+#include "Kernel/Mercury/MercuryForces.h"
 #include "Kernel/Mercury/MercuryHelpers.h"
 #include "Kernel/Mercury/MercuryInsertionBoundaries.h"
 #include "Kernel/Mercury/MercuryInteractions.h"
@@ -43,11 +45,22 @@ public:
         settings->atSetUp = [this] {
             boundaryHandler.settle();
             requireOnePlane(this->particleHandler);
+            // Whether the driver has forces of its own: the function below says that it has not.
+            MercuryForcedGrain::Load unused;
+            if (!this->particleHandler.isEmpty())
+                computeExternalForces(MercuryForcedGrain(*this->particleHandler.begin(), unused));
         };
     }
 
     /// Texts with a % for each value, through the scene's own logger.
     MercuryLogger logger{Run::logger};
+
+    /// A driver's own forces on a grain that can move, by grain->addForce(), at the end of each step; those
+    /// of contacts and gravity act beside them (there it is gravity that one overrides). getTime() is the
+    /// start of the step. Called once more at set-up, to see whether a driver has any.
+    virtual void computeExternalForces(MercuryForcedGrain /*grain*/) { forces.sleep(); }
+    /// Without effect: walls act by themselves.
+    void computeForcesDueToWalls(const GrainReference& /*grain*/) {}
 
     /// Called whenever output is due: at the start, after every saveCount steps and at the end.
     virtual void printTime() const {}
@@ -137,8 +150,13 @@ public:
     void setParticlesWriteVTK(FileType type) { setParticlesWriteVTK(type != FileType::NO_FILE); }
     void setWallsWriteVTK(FileType type) { setWallsWriteVTK(type != FileType::NO_FILE); }
 
-    /// Goes on from the kernel's restart file of this name, for a scene that is set up as it was.
-    void readRestartFile() { this->restartFrom(Run::restartFile()); }
+    /// Goes on from the kernel's restart file of this name, for a scene that is set up as it was; where there
+    /// is none, starts from NAME.restart, one of MercuryDPM's in text.
+    void readRestartFile() {
+        const std::filesystem::path text = this->getName() + ".restart";
+        const bool isOwn = std::filesystem::exists(Run::restartFile()) || !isMercuryRestart(text);
+        readRestartFile(isOwn ? Run::restartFile() : text);
+    }
     /// The same of a file; one of MercuryDPM's in text is a start: readMercuryRestart(). That is taken by
     /// scenes of any species (Mercury3D).
     void readRestartFile(const std::filesystem::path& file) {
@@ -192,6 +210,8 @@ private:
 
     int systemDimensions = 3;
     MercuryPaths& paths = this->template addPart<MercuryPaths>();
+    MercuryForces& forces = this->template addPart<MercuryForces>(
+        [this](const MercuryForcedGrain& grain) { computeExternalForces(grain); });
     MercuryBonds& bonds = this->template addPart<MercuryBonds>();
     MercuryInsertions& insertions = this->template addPart<MercuryInsertions>();
     MercuryActions& actions = this->template addPart<MercuryActions>();

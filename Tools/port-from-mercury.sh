@@ -31,6 +31,7 @@ port() {
         -e 's/std::vector<BaseParticle[[:space:]]*\*>::(const_)?iterator/auto/g' \
         -e 's/std::vector<BaseParticle[[:space:]]*\*>/std::vector<SphericalParticle*>/g' \
         -e 's/\bnew BaseParticle\b/new SphericalParticle/g' \
+        -e 's/(\bcomputeExternalForces\()BaseParticle[[:space:]]*\*[[:space:]]*/\1MercuryForcedGrain /g' \
         -e 's/\.getLengthSquared\(\)/.squaredNorm()/g' \
         -e 's/\.getLength\(\)/.norm()/g' \
         -e 's/\b(const )?(BaseParticle|BaseInteraction|BaseWall|BaseBoundary)[[:space:]]*\*[[:space:]]*/auto /g' \

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Sizes/SizeTable.h"
@@ -161,21 +164,106 @@ double InsertionBoundary::getVolumeOfParticlesInserted() const {
     return volumeAtOnce + (source ? source->volume : 0);
 }
 
+void RoundInsertionBoundary::setRegion(const Vec3D& lowest, const Vec3D& highest, Contains contains) {
+    low = lowest, high = highest, isIn = std::move(contains);
+    isBox = false;
+    place();
+}
+
+void RoundInsertionBoundary::shiftBoundary(const Vec3D& shift) {
+    requireChangeable("shiftBoundary()");
+    origin += shift;
+    if (isIn) place();
+}
+
+void RoundInsertionBoundary::turn(const Eigen::Matrix3d& by) {
+    rotation = by * rotation;
+    if (isIn) place();
+}
+
+void RoundInsertionBoundary::checkRange(const char* what, double lowest, double highest,
+                                        const char* unit) const {
+    checkValue(name, fmt::format("lowest of the {}", what), lowest, unit, anyFinite);
+    checkValue(name, fmt::format("highest of the {}", what), highest, unit, {lowest, infinity, false, false});
+}
+
+/// Even in the region: points of the box around it until one is in it, or a thousand are not.
+void RoundInsertionBoundary::place() {
+    constexpr int mostTries = 1000;
+    plan.place = [=, contains = isIn, turn = rotation, from = origin, lowest = low, highest = high](
+                     UniformRandom& random, double radius) -> std::optional<Vec3D> {
+        for (int k = 0; k < mostTries; ++k) {
+            Vec3D point;
+            for (int axis = 0; axis < 3; ++axis) point[axis] = random.uniform(lowest[axis], highest[axis]);
+            if (contains(point, radius)) return turn * point + from;
+        }
+        return std::nullopt;
+    };
+    const double reach = low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm();
+    setBox(origin - Vec3D::Constant(reach), origin + Vec3D::Constant(reach));
+}
+
+/// rad, around z from x on: from 0 to 2 pi.
+static double thetaOf(const Vec3D& point) {
+    const double angle = std::atan2(point.y(), point.x());
+    return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+}
+
 void SphereInsertionBoundary::set(const SphericalParticle* like, unsigned maxFailed, const Vec3D& centre,
                                   double radius, const Vec3D& lowestVelocity, const Vec3D& highestVelocity) {
     checkValue(name, "radius", radius, "m", radiusRange);
     setGrains({like}, maxFailed, lowestVelocity, highestVelocity);
-    isBox = false;
-    plan.place = [centre, radius](UniformRandom& random, double ofGrain) -> std::optional<Vec3D> {
-        const double room = radius - ofGrain;
-        if (!(room >= 0)) return std::nullopt;
-        Vec3D way;  // even in the ball: points of the cube around it until one is in it
-        do
-            for (int axis = 0; axis < 3; ++axis) way[axis] = random.uniform(-1, 1);
-        while (way.squaredNorm() > 1);
-        return centre + room * way;
-    };
-    setBox(centre - Vec3D::Constant(radius), centre + Vec3D::Constant(radius));
+    shiftBoundary(centre - getOrigin());
+    setRegion(Vec3D::Constant(-radius), Vec3D::Constant(radius),
+              [radius](const Vec3D& point, double ofGrain) { return point.norm() <= radius - ofGrain; });
+}
+
+void SphereInsertionBoundary::set(const SphericalParticle* like, unsigned maxFailed, double lowestRadius,
+                                  double highestRadius, double lowestTheta, double highestTheta,
+                                  double lowestPhi, double highestPhi, const Vec3D& lowestVelocity,
+                                  const Vec3D& highestVelocity) {
+    checkRange("radii", lowestRadius, highestRadius, "m");
+    checkRange("angles theta", lowestTheta, highestTheta, "rad");
+    checkRange("angles phi", lowestPhi, highestPhi, "rad");
+    setGrains({like}, maxFailed, lowestVelocity, highestVelocity);
+    setRegion(Vec3D::Constant(-highestRadius), Vec3D::Constant(highestRadius),
+              [=](const Vec3D& point, double) {
+                  const double r = point.norm(), theta = thetaOf(point),
+                               phi = std::atan2(std::hypot(point.x(), point.y()), point.z());
+                  return r >= lowestRadius && r <= highestRadius && theta >= lowestTheta &&
+                         theta <= highestTheta && phi >= lowestPhi && phi <= highestPhi;
+              });
+}
+
+void CylinderInsertionBoundary::set(const SphericalParticle* like, unsigned maxFailed, double lowestRadius,
+                                    double highestRadius, double lowestHeight, double highestHeight,
+                                    const Vec3D& axis, double lowestTheta, double highestTheta,
+                                    const Vec3D& lowestVelocity, const Vec3D& highestVelocity) {
+    checkRange("radii", lowestRadius, highestRadius, "m");
+    checkRange("heights", lowestHeight, highestHeight, "m");
+    checkRange("angles theta", lowestTheta, highestTheta, "rad");
+    const bool isAlongX = axis == Vec3D::UnitX(), isAlongY = axis == Vec3D::UnitY();
+    if (!isAlongX && !isAlongY && axis != Vec3D::UnitZ())
+        throw InputError(fmt::format(
+            "{}: axis = ({}, {}, {}); it must be (1, 0, 0), (0, 1, 0) or (0, 0, 1); rotateBoundary() turns "
+            "it further.",
+            name, axis.x(), axis.y(), axis.z()));
+    setGrains({like}, maxFailed, lowestVelocity, highestVelocity);
+    const double quarter = 0.5 * std::numbers::pi;
+    if (isAlongX || isAlongY)
+        turn(Eigen::AngleAxisd(quarter, isAlongX ? Vec3D::UnitY() : Vec3D::UnitX()).toRotationMatrix());
+    setRegion({-highestRadius, -highestRadius, lowestHeight}, {highestRadius, highestRadius, highestHeight},
+              [=](const Vec3D& point, double) {
+                  const double r = std::hypot(point.x(), point.y()), theta = thetaOf(point);
+                  return r >= lowestRadius && r <= highestRadius && theta >= lowestTheta &&
+                         theta <= highestTheta;
+              });
+}
+
+void CylinderInsertionBoundary::rotateBoundary(const Vec3D& angles) {
+    requireChangeable("rotateBoundary()");
+    for (int axis = 0; axis < 3; ++axis)
+        turn(Eigen::AngleAxisd(angles[axis], Vec3D::Unit(axis)).toRotationMatrix());
 }
 
 void PolydisperseInsertionBoundary::setGeometry(unsigned maxFailed, const Vec3D& lowest, const Vec3D& highest,

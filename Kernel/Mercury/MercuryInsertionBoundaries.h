@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <numbers>
 #include <vector>
 
 #include "Kernel/Mercury/MercuryBoundaries.h"
@@ -104,13 +106,57 @@ public:
     }
 };
 
-/// Grains that come into a ball.
-class SphereInsertionBoundary : public InsertionBoundary {
+/// Grains that come into a region that can be put elsewhere.
+class RoundInsertionBoundary : public InsertionBoundary {
 public:
-    SphereInsertionBoundary() : InsertionBoundary("SphereInsertionBoundary") {}
-    /// @param centre m, and the radii (m) along the three axes
+    /// m
+    void shiftBoundary(const Vec3D& shift);
+    [[nodiscard]] const Vec3D& getOrigin() const { return origin; }
+    [[nodiscard]] const Eigen::Matrix3d& getOrientationMatrix() const { return rotation; }
+
+protected:
+    using InsertionBoundary::InsertionBoundary;
+    /// In its own frame: whether the centre (m) of a grain of a radius (m) is in it, and a box around it.
+    using Contains = std::function<bool(const Vec3D&, double)>;
+    void setRegion(const Vec3D& lowest, const Vec3D& highest, Contains contains);
+    void turn(const Eigen::Matrix3d& by);
+    /// Throws InputError unless a range (m or rad) of a region is one. @param what "radii"
+    void checkRange(const char* what, double lowest, double highest, const char* unit) const;
+
+private:
+    void place();
+
+    Vec3D origin = Vec3D::Zero(), low = Vec3D::Zero(), high = Vec3D::Zero();  // m
+    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+    Contains isIn;
+};
+
+/// Grains that come into a ball.
+class SphereInsertionBoundary : public RoundInsertionBoundary {
+public:
+    SphereInsertionBoundary() : RoundInsertionBoundary("SphereInsertionBoundary") {}
+    /// Whole grains. @param centre m, and the radius (m)
     void set(const SphericalParticle* like, unsigned maxFailed, const Vec3D& centre, double radius,
              const Vec3D& lowestVelocity = Vec3D::Zero(), const Vec3D& highestVelocity = Vec3D::Zero());
+    /// Centres between two distances (m) from the origin and in these angles (rad): theta around z from x on,
+    /// up to 2 pi, and phi from z.
+    void set(const SphericalParticle* like, unsigned maxFailed, double lowestRadius, double highestRadius,
+             double lowestTheta, double highestTheta, double lowestPhi, double highestPhi,
+             const Vec3D& lowestVelocity = Vec3D::Zero(), const Vec3D& highestVelocity = Vec3D::Zero());
+};
+
+/// Grains that come into a cylinder.
+class CylinderInsertionBoundary : public RoundInsertionBoundary {
+public:
+    CylinderInsertionBoundary() : RoundInsertionBoundary("CylinderInsertionBoundary") {}
+    /// Centres between two distances (m) from the axis, two heights (m) along it, and two angles (rad) around
+    /// it. @param axis x, y or z; along y the heights go backwards, as there
+    void set(const SphericalParticle* like, unsigned maxFailed, double lowestRadius, double highestRadius,
+             double lowestHeight, double highestHeight, const Vec3D& axis, double lowestTheta = 0,
+             double highestTheta = 2 * std::numbers::pi, const Vec3D& lowestVelocity = Vec3D::Zero(),
+             const Vec3D& highestVelocity = Vec3D::Zero());
+    /// Turns it about its origin: about x, then about y, then about z, by these angles (rad).
+    void rotateBoundary(const Vec3D& angles);
 };
 
 /// Several sorts of grains in a box, each with radii of its own.

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include "Kernel/Files/TextFile.h"
@@ -129,6 +130,22 @@ GrainRow grainOf(const Lines& lines) {
             .type = static_cast<int>(lines.number(*species)) + 1};
 }
 
+/// A contact that has begun and remembers nothing: all is zero that it remembers (springs of friction,
+/// plastic overlaps, bonds), so that the first step makes it anew.
+void passInteraction(const Lines& lines) {
+    static const std::set<std::string_view> notRemembered{
+        "particleIds", "particleWallIds", "id",      "timeStamp", "force", "torque",
+        "position",    "contactPoint",    "overlap", "distance",  "normal"};
+    std::string_view field;
+    for (std::size_t k = 1; k < lines.all().size(); ++k) {
+        double value = 0;
+        if (!parseNumber(lines.all()[k], value)) field = lines.all()[k];
+        else if (value != 0 && !notRemembered.contains(field))
+            lines.refuse(
+                fmt::format("a contact remembers '{}', which is not taken over; it must be 0", shown(field)));
+    }
+}
+
 }  // namespace
 
 bool isMercuryRestart(const std::filesystem::path& path) {
@@ -152,8 +169,9 @@ MercuryRestart readMercuryRestart(const std::filesystem::path& path) {
         if (first == "Species") section(first, [&] { state.species.push_back(speciesOf(lines)); });
         else if (first == "Walls") section(first, [&] { state.planes.push_back(planeOf(lines)); });
         else if (first == "Particles") section(first, [&] { state.grains.push_back(grainOf(lines)); });
-        else if ((first == "Boundaries" || first == "Interactions") && lines.countBehind(first) > 0)
-            lines.refuse(fmt::format("{} are not taken over; set them up in the driver", first));
+        else if (first == "Interactions") section(first, [&] { passInteraction(lines); });
+        else if (first == "Boundaries" && lines.countBehind(first) > 0)
+            lines.refuse("boundaries are not taken over; set them up in the driver");
         else readHead(lines, state);
     }
     return state;

@@ -10,7 +10,7 @@
 namespace pendular {
 
 /// A restart file of MercuryDPM's, in text: the box, the times, species, planes and grains of a scene. All
-/// else of it (what contacts remember, other walls, boundaries) is refused where it is there.
+/// else of it (what contacts remember and is not zero, other walls, boundaries) is refused where it is there.
 struct MercuryRestart {
     struct Species {
         std::string type;

@@ -76,6 +76,25 @@ public:
     [[nodiscard]] TriangleWall inDomain(const Vec3D& lowest, const Vec3D& highest) const;
 };
 
+/// A solid that MercuryDPM has as distances on a grid; here with its plane faces: a cube, or an octahedron
+/// with its corners on the axes, of this radius (m, from the middle to a face of the cube, or to a corner).
+class LevelSetWall : public IntersectionOfWalls {
+public:
+    enum class Shape { Cube, Diamond };
+    template <class S>
+    LevelSetWall(Shape shape, double radius, const S* of) {
+        setSpecies(of);
+        for (const double x : {-1.0, 1.0})
+            for (const double y : {-1.0, 1.0})
+                for (const double z : {-1.0, 1.0})
+                    if (shape == Shape::Diamond) addObject({x, y, z}, Vec3D(-x * radius, 0, 0));
+        for (int axis = 0; axis < 3; ++axis)
+            for (const double side : {-1.0, 1.0})
+                if (shape == Shape::Cube)
+                    addObject(side * Vec3D::Unit(axis), -side * radius * Vec3D::Unit(axis));
+    }
+};
+
 /// The solid that a convex profile makes by turning about an axis: an AxisymmetricWall. Normals and points
 /// are (distance from the axis, 0, place along it), as there; the part at negative distances is left out.
 class AxisymmetricIntersectionOfWalls : public MercurySolid {
@@ -142,7 +161,7 @@ public:
         return copyAndAddObject(*wall);
     }
     template <class Other>
-    requires(!std::derived_from<Other, Wall> &&
+    requires(!std::derived_from<Other, Wall> && !std::derived_from<Other, MercurySolid> &&
              !std::is_pointer_v<Other>) void copyAndAddObject(const Other&) {
         static_assert(std::derived_from<Other, Wall>,
                       "a wall is added to wallHandler, a boundary is added to boundaryHandler");

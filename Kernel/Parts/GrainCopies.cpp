@@ -13,6 +13,7 @@
 #include "Kernel/Base/Logger.h"
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Contacts/ContactLaws.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Math/EigenConversion.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Step/SummaryRows.h"
@@ -193,10 +194,70 @@ bool GrainCopies::isNear(const Image& image, const Vec3D& own, const Vec3D& ther
     });
 }
 
+/// A copy begins without what the contacts of its grain remember: only springs of friction can.
+static bool remembersMoreThanSprings(const ContactLaws& laws) {
+    if (laws.layout.normalHistory > 0) return true;
+    const auto species = static_cast<int>(laws.speciesCount());
+    for (int a = 0; a < species; ++a)
+        for (int b = a; b < species; ++b)
+            if (laws.ofPair(a, b).formsAtContact || laws.ofPair(a, b).resistsMotion) return true;
+    return false;
+}
+
+/// Grains that the scene brings back would be at another distance from these faces at once. Throws
+/// InputError.
+void GrainCopies::refuseFacesAcross(const PeriodicBox& box) const {
+    constexpr std::array axes{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
+    for (int axis = 0; axis < 3; ++axis)
+        for (const Passage& passage : passages)
+            for (const Vec3D& normal : passage.outwards)
+                if (box.length.*axes[axis] > 0 && std::abs(normal[axis]) > 1e-9)
+                    throw InputError(fmt::format(
+                        "copies of grains: a face with the normal ({:.4g}, {:.4g}, {:.4g}) is not along {}, "
+                        "along which the scene is periodic; leave setPeriodic() of that axis out, or take "
+                        "faces "
+                        "along it.",
+                        normal.x(), normal.y(), normal.z(), "xyz"[axis]));
+}
+
+/// A grain that goes through a face is another one from then on. Throws InputError for columns, temperatures
+/// among them.
+void GrainCopies::refuseColumns(const StepContext& scene) {
+    const auto refuse = [](const std::string& what, const char* call) {
+        throw InputError(
+            fmt::format("copies of grains: {}, of which a copy would have no number; leave {} out, or take "
+                        "setPeriodic().",
+                        what, call));
+    };
+    const std::vector<GrainColumn>& columns = scene.grains().columns;
+    if (!columns.empty())
+        refuse(fmt::format("grains have a column, '{}'", columns.front().name), "addColumn()");
+    if (!scene.contacts.columns().empty()) refuse("contacts have columns", "addContactColumn()");
+}
+
+/// What a hook changes of a grain is not changed of its copies. Throws InputError.
+void GrainCopies::takeOver(StepContext& scene, const SceneChanges& changes) {
+    if (!changes.grains) return;
+    const ParticleStore& grains = scene.grains();
+    for (const auto& [copy, identity] : copies) {
+        const std::uint32_t here = grains.place[identity], there = grains.place[copy];
+        if (here == PlaceIndex::none || there == PlaceIndex::none) continue;
+        const double radius = grains.translation[here].radius, ofCopy = grains.translation[there].radius;
+        if (radius != ofCopy)
+            throw InputError(fmt::format(
+                "copies of grains: particle {} has the radius {:.6g} m, and its copy, particle {}, {:.6g} m; "
+                "radii cannot change near faces of a scene with copies.",
+                identity, radius, copy, ofCopy));
+        if (grains.species[here] != grains.species[there])
+            throw InputError(fmt::format(
+                "copies of grains: particle {} has the species {}, and its copy, particle {}, {}; species "
+                "cannot change near faces of a scene with copies.",
+                identity, grains.species[here], copy, grains.species[there]));
+    }
+}
+
 void GrainCopies::check(const StepContext& scene) {
-    // A copy begins without what the contacts of its grain remember: only springs of friction can.
-    const ContactLayout& layout = scene.laws->layout;
-    if (!passages.empty() && (layout.interaction > 0 || layout.normalHistory > 0))
+    if (!passages.empty() && remembersMoreThanSprings(*scene.laws))
         throw InputError(
             "copies of grains: a law of this scene remembers more of a contact than springs of friction "
             "(bridges, cohesion with hysteresis, plastic overlaps), which copies would not have; take laws "
@@ -208,6 +269,8 @@ void GrainCopies::check(const StepContext& scene) {
                 "the "
                 "largest distance at which two grains of this scene act on each other, and a little more.",
                 passage.width, staysWithin * scene.largestReach / (mostWidths - 1)));
+    if (!passages.empty()) refuseColumns(scene);
+    refuseFacesAcross(scene.box);
     // Copies behind the gap and those behind the box must not be in each other's way.
     if (isFeeding() && passages[0].gap > 0 && passages[0].gap < 2 * scene.largestReach)
         throw InputError(
@@ -432,12 +495,29 @@ struct SpeciesOfGrain {
 
 }  // namespace
 
+/// Behind the gap nobody is in the way while the flow goes on. Throws RunError where it does not.
+void GrainCopies::requireRoom(StepContext& step, std::uint32_t identity, const SphericalParticle& copy,
+                              double time) {
+    constexpr double mostShare = 0.05;  // of the smaller radius, as at set-up
+    for (const GrainReference other : step.particles) {
+        const double overlap = copy.getRadius() + other.getRadius() -
+                               norm(step.box.nearest(toVector(other.getPosition() - copy.getPosition())));
+        if (overlap <= mostShare * std::min(copy.getRadius(), other.getRadius())) continue;
+        throw RunError(fmt::format(
+            "At time {:.6g} s there is no room behind the gap for what follows particle {} of the box that "
+            "feeds: particle {} is there; a box with a gap feeds a flow that goes on, so drive it more "
+            "strongly, or take one without a gap.",
+            time, identity, other.getId()));
+    }
+}
+
 void GrainCopies::makeOne(StepContext& step, std::uint32_t identity, const Image& image, double time) {
     const GrainReference grain = step.particles.getObject(identity);
     const SpeciesOfGrain species{grain.getSpeciesIndex(), step.laws->owner()};
     SphericalParticle copy(&species);
     copy.setRadius(grain.getRadius());
     copy.setPosition(placeOf(motionOf(image, time), grain.getPosition()));
+    if (image.feeds) requireRoom(step, identity, copy, time);
     copy.setHeldAxes(grain.getHeldAxes());
     const std::uint32_t made = step.particles.copyAndAddObject(copy).getId();
     copiesOf[identity][image] = made;

@@ -29,8 +29,9 @@ namespace pendular {
 /// grains are inserted there must be room for their copies. What the springs of friction remember of two
 /// grains that touch is not handed to their copies: where both go through a face, they begin anew, and while
 /// one has and the other has not, the forces of friction on both are not equal and opposite. Laws that
-/// remember more (bridges, plastic overlaps) are refused. Copies have no numbers of a driver's own columns,
-/// no temperatures and bonds; a radius or species that a hook changes is that of the grain alone.
+/// remember more (bridges, plastic overlaps) are refused, and so are columns, temperatures, bonds and
+/// prescribed paths, which copies would not have, and a radius or species that a hook changes of a grain that
+/// has copies.
 class GrainCopies : public StepPart {
 public:
     /// The scene repeats itself between two planes at these distances (m) along the unit normal, and the
@@ -66,6 +67,7 @@ public:
     [[nodiscard]] std::span<const Conflict> ownConflicts() const override;
     void check(const StepContext& scene) override;
     void begin(StepContext& scene, bool isRestarted) override;
+    void takeOver(StepContext& scene, const SceneChanges& changes) override;
     void prepare(StepContext& step) override;
     void moveSurroundings(StepContext& step) override { follow(step.grains(), step.timeAfter); }
     void finish(StepContext& step) override { follow(step.grains(), step.timeAfter); }
@@ -120,6 +122,10 @@ private:
     }
 
     [[nodiscard]] std::vector<double> numbersOfFaces() const;
+    static void refuseColumns(const StepContext& scene);
+    void refuseFacesAcross(const PeriodicBox& box) const;
+    static void requireRoom(StepContext& step, std::uint32_t identity, const SphericalParticle& copy,
+                            double time);
     void follow(ParticleStore& grains, double time) const;
     void adopt(StepContext& step);
     void renew(StepContext& step, double time);

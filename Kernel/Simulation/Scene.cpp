@@ -137,8 +137,7 @@ void Scene::setIntegrator(const Integrator& scheme) {
 void Scene::acceptUnstableTimeStep(bool accept) { inside->context.acceptsUnstableStep = accept; }
 
 void Scene::acceptOverlaps(double share) {
-    checkValue("Simulation", "accepted overlap", share, "of the smaller radius",
-               fromZeroTo(usualOverlapInRun));
+    checkValue("Simulation", "accepted overlap", share, "of the smaller radius", fromZeroTo(1));
     inside->acceptedOverlap = share;
 }
 

@@ -162,8 +162,9 @@ public:
     /// the contacts are softer than those of the limit, or where no bed comes to rest; else the results mean
     /// nothing.
     void acceptUnstableTimeStep(bool accept = true);
-    /// Grains may overlap each other and walls by up to this share of the smaller radius, at most 0.5, at
-    /// set-up and where they are added or put in a run; 0.05 without it. This is for soft grains that have
+    /// Grains may overlap each other and walls by up to this share of the smaller radius, and by no more than
+    /// ends a run (0.5; 1 for laws that bond or sinter), at set-up and where they are added or put in a run;
+    /// 0.05 without it. This is for soft grains that have
     /// settled in another run. The stability limit stays that of 0.05: beyond it contacts are stiffer
     /// (stabilityAdvice()).
     void acceptOverlaps(double share);

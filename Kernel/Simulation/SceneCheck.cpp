@@ -18,10 +18,11 @@ namespace {
 
 /// Two bodies that overlap at the start.
 struct InitialOverlap {
-    double share;                 // of the smaller radius
-    std::uint32_t lower, higher;  // identities; at a wall twice that of the grain
-    int wall;                     // -1: grain with grain
-    double depth;                 // m
+    double share;                          // of the smaller radius
+    std::uint32_t lower, higher;           // identities; at a wall twice that of the grain
+    int wall;                              // -1: grain with grain
+    double depth;                          // m
+    double mostInRun = usualOverlapInRun;  // of the smaller radius; more ends a run of their laws
 
     /// Whether this one is told of first: the deepest, whatever the order of the list.
     [[nodiscard]] bool isBefore(const InitialOverlap& other) const {
@@ -39,14 +40,14 @@ static InputError initialOverlapError(const ParticleStore& grains, const Initial
     const std::string advice =
         overlap.wall >= 0 && overlap.share > 1
             ? ": the grain's centre is behind the wall, whose normal must point away from the grains"
-        : accepted < usualOverlapInRun
-            ? fmt::format(", unless acceptOverlaps() allows more (up to {:g} %)", 100 * usualOverlapInRun)
+        : accepted < overlap.mostInRun
+            ? fmt::format(", unless acceptOverlaps() allows more (up to {:g} %)", 100 * overlap.mostInRun)
             : "";
     return InputError(
         fmt::format("{} and {}: initial overlap = {:.6g} m is {:.3g} % of the smaller radius; it must be at "
                     "most {:g} %{}.",
                     nameOfGrain(grains, overlap.lower), other, overlap.depth, 100 * overlap.share,
-                    100 * accepted, advice));
+                    100 * std::min(accepted, overlap.mostInRun), advice));
 }
 
 /// m, what the overlaps of a grain are held against.
@@ -86,8 +87,9 @@ void refuseInitialOverlaps(
         const auto [lower, higher] = std::minmax({grains.identity[first], grains.identity[second]});
         const double depth = contacts.observe(grains, bucket, contact).overlap();
         const double share = depth / smaller;
-        if (share > accepted * (1 + 1e-9))  // positions are rounded
-            keep(deepest, {share, lower, higher, bucket.wall, depth});
+        const double most = contacts.laws().ofPair(bucket.species1, bucket.species2).largestOverlapInRun;
+        if (share > std::min(accepted, most) * (1 + 1e-9))  // positions are rounded
+            keep(deepest, {share, lower, higher, bucket.wall, depth, most});
         const double hidden = hiddenOverlap(contacts.laws(), grains, first, second, contacts.periodicBox());
         if (hidden > 0) keep(deepestHidden, {hidden / smaller, lower, higher, bucket.wall, hidden});
     });

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <set>
+#include <string_view>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/State/StateArchive.h"
@@ -34,14 +37,34 @@ Features StepList::wake(const StepContext& context) {
     return all;
 }
 
+/// Parts of drivers that do not go together, by their names.
+struct PartsConflict {
+    std::string_view one, other, why;
+};
+static constexpr std::array conflictsOfParts{
+    PartsConflict{"copies of grains", "bonds", "copies of bonded grains have no bonds"},
+    PartsConflict{"copies of grains", "prescribed paths",
+                  "a grain that goes through a face is another one from then on, without the path"}};
+
+static void refuseParts(const std::set<std::string_view>& names) {
+    for (const PartsConflict& conflict : conflictsOfParts)
+        if (names.contains(conflict.one) && names.contains(conflict.other))
+            throw InputError(fmt::format(
+                "Simulation: {} and {} cannot be combined: {}; leave one of them out, or take setPeriodic().",
+                conflict.one, conflict.other, conflict.why));
+}
+
 void StepList::refuseOwnConflicts(const Features& scene) const {
+    std::set<std::string_view> names;
     for (const auto& part : own) {
         if (std::ranges::find(awake, part.get()) == awake.end()) continue;
+        names.insert(part->name());
         Features named = scene;
         named.add(Feature::OwnPart, std::string(part->name()));
         refuseConflicts(named, part->ownConflicts());
         if (!part->actsOnRanks()) refuseConflicts(named, conflictsOfRanks());
     }
+    refuseParts(names);
 }
 
 void StepList::check(const StepContext& context) const {

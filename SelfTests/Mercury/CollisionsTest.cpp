@@ -19,6 +19,7 @@ namespace {
 using support::contains;
 using support::isOneSentence;
 using support::refusal;
+using support::TestFolder;
 
 // Six pairs of discs that meet at and across the faces of two periods, with a speed along x, or along x and
 // y, and one at another height: places and velocities of each after 0.11 s.
@@ -102,7 +103,7 @@ TEST(MercuryPrograms, periodicWalls) {
 // what they have stored at their limit s = mu N / k_t: I w^2 / 2 = 4 k_t s^2 / 2. The largest of samples of
 // 0.073 rad is 7e-4 below, and the step errs by as much. (There it is asked for a spin at one moment, whose
 // phase depends on the lever: up to the wall here, to the middle of the overlap there.)
-class AmongFourWalls : public MercuryScene<LinearViscoelasticSlidingFrictionSpecies> {
+class AmongFourWalls : public DPMBase {
 public:
     double largest = 0;  // rad/s
     void actionsAfterTimeStep() override {
@@ -112,27 +113,42 @@ public:
 };
 
 TEST(MercuryPrograms, oneParticleFourWalls) {
+    const TestFolder folder;
+    std::string text =
+        "restart_version 1.0 name 1Particle4WallsRestart\n"
+        "dataFile name 1Particle4WallsRestart.data fileType ONE_FILE saveCount 5 counter 0 "
+        "nextSavedTimeStep 0\n"
+        "xMin 0 xMax 1 yMin 0 yMax 1 zMin 0 zMax 1\n"
+        "timeStep 1e-04 time 0 ntimeSteps 0 timeMax 0.01\n"
+        "systemDimensions 3 particleDimensions 3 gravity 0 0 0\n"
+        "Species 1\n"
+        "LinearViscoelasticSlidingFrictionSpecies id 0 density 1.9098593 stiffness 200000 dissipation 0 "
+        "slidingStiffness 57142.857 slidingDissipation 0 frictionCoefficient 0.5 "
+        "frictionCoefficientStatic 0.5\n"
+        "Walls 4\n";
+    for (const char* wall : {"position 0 0 0 normal -1 0 0", "position 0.96 0 0 normal 1 0 0",
+                             "position 0 0 0 normal 0 0 -1", "position 0 0 0.96 normal 0 0 1"})
+        text += fmt::format("InfiniteWall id 0 indSpecies 0 {} factor 1\n", wall);
+    text +=
+        "Boundaries 0\nParticles 1\n"
+        "BaseParticle id 0 indSpecies 0 position 0.48 0 0.48 orientation 1 0 0 0 velocity 0 0 0 "
+        "angularVelocity 0 60 0 force 0 0 0 torque 0 0 0 radius 0.5 invMass 1 invInertia 10\n"
+        "Interactions 4\n";
+    for (int wall = 0; wall < 4; ++wall)
+        text += fmt::format(
+            "LinearViscoelasticSlidingFrictionInteraction particleWallIds 0 {} timeStamp 0 force 0 0 0 "
+            "torque "
+            "0 0 0 slidingSpring 0 0 0\n",
+            wall);
     AmongFourWalls scene;
-    auto species = scene.speciesHandler.copyAndAddObject(LinearViscoelasticSlidingFrictionSpecies());
-    species->setDensity(1.9098593);
-    species->setStiffness(200000);
-    species->setSlidingStiffness(57142.857);
-    species->setSlidingFrictionCoefficient(0.5);
-    scene.setDomain({0, 0, 0}, {1, 1, 1});
-    for (const int axis : {0, 2})
-        for (const double side : {-1.0, 1.0}) {
-            InfiniteWall wall;
-            wall.setSpecies(species);
-            wall.set(side * Vec3D::Unit(axis), (side > 0 ? 0.96 : 0.0) * Vec3D::Unit(axis));
-            scene.wallHandler.copyAndAddObject(wall);
-        }
-    SphericalParticle grain(species);
-    grain.setRadius(0.5);
-    grain.setPosition({0.48, 0, 0.48});
-    grain.setAngularVelocity({0, 60, 0});
-    auto p = scene.particleHandler.copyAndAddObject(grain);
-    scene.setTimeStep(1e-4);
-    scene.setTimeMax(0.02);
+    scene.setName(folder.name());
+    helpers::writeToFile(folder.name() + ".restart", text);
+    scene.readRestartFile();
+    EXPECT_EQ(scene.getName(), "1Particle4WallsRestart");
+    scene.setName(folder.name());
+    scene.setFileType(FileType::NO_FILE);
+    const auto p = scene.particleHandler.getObject(0);
+    scene.setTimeMax(0.02);  // 0.01 s there
     scene.setQuiet();
     scene.solve();
     const double limit = 0.5 * 200000 * 0.02 / 57142.857;  // m
@@ -396,7 +412,7 @@ TEST(MercuryBond, endsWhereGrainsPart) {
 
 // A run goes on from its restart file with its bonds, also one that a hook has just asked for.
 TEST(MercuryBond, isInTheRestartFile) {
-    const support::TestFolder folder;
+    const TestFolder folder;
     const auto make = [] {
         auto scene = std::make_unique<MercuryScene<LinearViscoelasticBondedSpecies>>();
         auto s = scene->speciesHandler.copyAndAddObject(LinearViscoelasticBondedSpecies());
@@ -450,6 +466,42 @@ TEST(MercuryBond, whatCannotBeIsRefused) {
     const std::string said = refusal([&] { scene.initialise(); });
     EXPECT_TRUE(isOneSentence(said) && contains(said, "bond of particles 0 and 1: they must overlap"))
         << said;
+}
+
+// Two bonded pairs that overlap by two thirds of a radius fall on a floor. (There they are bonded by 100 N,
+// which the spring of 1000 N/m balances at an overlap of 0.1 m: they go through each other.)
+TEST(MercuryPrograms, bondedMultiparticles) {
+    Mercury3D dpm;
+    dpm.setMin(Vec3D(0, 0, 0)), dpm.setMax(Vec3D(0.4, 0.4, 0.4));
+    dpm.setGravity(Vec3D(0, 0, -9.81));
+    dpm.setQuiet();
+    auto species = dpm.speciesHandler.copyAndAddObject(LinearViscoelasticSlidingFrictionBondedSpecies());
+    species->setDensity(2000);
+    species->setDissipation(0.01);
+    species->setStiffness(1e3);
+    species->setBondForceMax(18);
+    dpm.acceptOverlaps(0.67);
+    SphericalParticle p;
+    p.setRadius(0.03);
+    p.setSpecies(species);
+    for (const double z : {0.2, 0.04})
+        for (const double x : {0.16, 0.2}) {
+            p.setPosition(Vec3D(x, 0.2, z));
+            p.setVelocity(Vec3D(z == 0.2 && x == 0.16 ? 1 : 0, 0, 0));
+            dpm.particleHandler.copyAndAddObject(p);
+        }
+    const auto grain = [&](std::size_t k) { return dpm.particleHandler.getObject(k); };
+    dpm.interactionHandler.getInteraction(grain(0), grain(1), 0)->bond();
+    dpm.interactionHandler.getInteraction(grain(2), grain(3), 0)->bond();
+    dpm.wallHandler.copyAndAddObject(InfiniteWall(Vec3D(0, 0, -1), Vec3D(0, 0, 0), species));
+    dpm.setTimeStep(1e-4);
+    dpm.setTimeMax(0.5);
+    dpm.solve();
+    helpers::check(4, static_cast<double>(dpm.particleHandler.getSize()), 0.1, "Number of particles check");
+    for (const std::size_t first : {0u, 2u})
+        EXPECT_LT((grain(first).getPosition() - grain(first + 1).getPosition()).norm(), 0.06);
+    EXPECT_NEAR(dpm.getTotalMomentum().x(), species->getMassFromRadius(0.03) * 1, 1e-12);
+    EXPECT_NEAR((grain(2).getPosition() - grain(3).getPosition()).norm(), 0.06 - 0.018, 2.1e-3);
 }
 
 }  // namespace

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "Kernel/MercuryScene.h"
+#include "Kernel/Parts/BondPart.h"
+#include "Kernel/Parts/HeatPart.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
@@ -478,6 +480,117 @@ TEST(MercuryCopies, haveFacesThatFitEachOther) {
     EXPECT_TRUE(isOneSentence(along) && contains(along, "along the normal")) << along;
     EXPECT_TRUE(isOneSentence(twice) && contains(twice, "this normal already")) << twice;
     EXPECT_TRUE(isOneSentence(empty) && contains(empty, "is empty")) << empty;
+}
+
+/// A grain at 0.1 m in a period of 2 m along x, which has a copy.
+struct Periodic : Simulation<LinearViscoelasticSlidingFrictionSpecies> {
+    GrainCopies& copies = addPart<GrainCopies>();
+    LinearViscoelasticSlidingFrictionSpecies* material;
+    Periodic() {
+        LinearViscoelasticSlidingFrictionSpecies species;
+        species.setDensity(1000), species.setStiffness(1000);
+        material = speciesHandler.copyAndAddObject(species);
+        SphericalParticle grain(material);
+        grain.setRadius(0.1);
+        grain.setPosition({0.1, 0, 0});
+        particleHandler.copyAndAddObject(grain);
+        setTimeStep(1e-4), setTimeMax(1e-3), setQuiet();
+    }
+    void addPeriod() { copies.addPeriod({1, 0, 0}, 0, 2); }
+};
+
+// What a copy would not have is refused when the scene is set up, or before the next step.
+TEST(MercuryCopies, areRefusedWhereTheyWouldLackSomething) {
+    const auto said = [](auto&& change) {
+        Periodic scene;
+        scene.addPeriod();
+        change(scene);
+        return refusal([&] { scene.initialise(); });
+    };
+    const std::string column = said([](Periodic&s) { s.particleHandler.addColumn("age", "s"); }),
+                      bonds = said([](Periodic&s) { s.addPart<BondPart>(); });
+    EXPECT_TRUE(isOneSentence(column) && contains(column, "a column, 'age'")) << column;
+    EXPECT_TRUE(isOneSentence(bonds) && contains(bonds, "copies of bonded grains have no bonds")) << bonds;
+    const std::string heat =
+        said([](Periodic& s) { s.addPart<HeatPart>(s.particleHandler.addColumn("temperature", "K", 293)); });
+    EXPECT_TRUE(isOneSentence(heat) && contains(heat, "a column, 'temperature'")) << heat;
+    const std::string ofContacts = said([](Periodic& s) { s.addContactColumn("age", "s"); });
+    EXPECT_TRUE(isOneSentence(ofContacts) && contains(ofContacts, "contacts have columns")) << ofContacts;
+    EXPECT_EQ(said([](Periodic&) {}), "");
+
+    Scene1 path;
+    addSpecies(path, 0.1, 1000);
+    GrainReference held = addGrain(path, 0.1, {0.1, 0, 0}, {0, 0, 0});
+    held.fixParticle();
+    path.setPrescribedVelocity(held, [](double) { return Vec3D(1, 0, 0); });
+    ThinPeriodicBoundary thin;
+    thin.set(Vec3D(1, 0, 0), 0, 2);
+    path.boundaryHandler.copyAndAddObject(thin);
+    path.setTimeStep(1e-4), path.setTimeMax(0);
+    const std::string paths = refusal([&] { path.solve(); });
+    EXPECT_TRUE(isOneSentence(paths) && contains(paths, "without the path")) << paths;
+}
+
+TEST(MercuryCopies, areRefusedWhereAHookChangesTheirGrain) {
+    const auto said = [](auto&& change) {
+        Periodic scene;
+        scene.addPeriod();
+        scene.initialise();
+        scene.step();
+        EXPECT_EQ(scene.copies.numberOfCopies(), 1u);
+        change(scene);
+        std::string text;
+        try {
+            scene.step();
+        } catch (const RunError& error) {
+            text = error.what();
+        }
+        return text;
+    };
+    const std::string radius = said([](Periodic& s) { s.particleHandler.getObject(0).setRadius(0.09); });
+    EXPECT_TRUE(isOneSentence(radius) && contains(radius, "particle 0 has the radius 0.09 m")) << radius;
+    EXPECT_EQ(said([](Periodic& s) { s.particleHandler.getObject(0).setVelocity({0.1, 0, 0}); }), "");
+}
+
+// A grain that setPeriodic() brings back would be elsewhere to a face that is not along that axis.
+TEST(MercuryCopies, areRefusedWithFacesAcrossAPeriodicAxis) {
+    const auto said = [](auto&& add, int axis) {
+        Periodic scene;
+        scene.particleHandler.getObject(0).setPosition({1, 1, 0});
+        add(scene.copies);
+        scene.setPeriodic(axis, -3, 3);
+        return refusal([&] { scene.initialise(); });
+    };
+    const auto wedge = [](GrainCopies& c) { c.addTurn({1, 0, 0}, {0, -1, 0}, {0, 0, 0}); };
+    for (const int axis : {0, 1}) {
+        const std::string text = said(wedge, axis);
+        EXPECT_TRUE(isOneSentence(text) && contains(text, fmt::format("is not along {}", "xyz"[axis])))
+            << text;
+    }
+    EXPECT_EQ(said(wedge, 2), "");
+    const auto slanted = [](GrainCopies& c) { c.addPeriod(Vec3D(0.6, 0.8, 0), 0, 2); };
+    EXPECT_TRUE(isOneSentence(said(slanted, 0)));
+    EXPECT_EQ(said(slanted, 2), "");
+}
+
+// A box whose grains turn back, where what it has fed is still behind the gap.
+TEST(MercuryCopies, ofABoxWithAGapSayThatItFlowsBack) {
+    Periodic scene;
+    scene.copies.addMaser({1, 0, 0}, 0, 2, {0, 0, 0}, 0.6);
+    scene.particleHandler.getObject(0).setPosition({1.99, 0, 0});
+    scene.particleHandler.getObject(0).setVelocity({1, 0, 0});
+    scene.initialise();
+    for (int k = 0; k < 200; ++k) scene.step();
+    EXPECT_EQ(scene.copies.numberFed(), 1u);
+    for (GrainReference grain : scene.particleHandler)
+        if (!scene.copies.isCopy(grain.getId()) && grain.getPosition().x() < 1) grain.setVelocity({-1, 0, 0});
+    std::string text;
+    try {
+        for (int k = 0; k < 200; ++k) scene.step();
+    } catch (const RunError& error) {
+        text = error.what();
+    }
+    EXPECT_TRUE(isOneSentence(text) && contains(text, "no room behind the gap")) << text;
 }
 
 }  // namespace

@@ -235,6 +235,73 @@ TEST(MercuryPrograms, sphereInsertionBoundary) {
     EXPECT_LT((sum / n).cwiseAbs().maxCoeff(), 4 * 0.019 / std::sqrt(5 * n));
 }
 
+// Centres in a shell, of which an eighth is left out, that is put elsewhere.
+TEST(MercuryPrograms, sphereInsertionBoundaryOfAngles) {
+    Empty scene;
+    SphericalParticle grain(scene.species);
+    grain.setRadius(0.001);
+    SphereInsertionBoundary insertion;
+    insertion.set(&grain, 100, 0.02, 0.03, 0, 1.5 * constants::pi, 0, 0.5 * constants::pi);
+    insertion.shiftBoundary(Vec3D(0.5, 0.5, 0.5));
+    EXPECT_TRUE(insertion.getOrigin() == Vec3D(0.5, 0.5, 0.5));
+    insertion.checkBoundaryBeforeTimeStep(&scene);
+    EXPECT_GT(scene.particleHandler.getSize(), 200u);
+    int quadrants[4] = {};
+    for (auto p : scene.particleHandler) {
+        const Vec3D way = p->getPosition() - Vec3D(0.5, 0.5, 0.5);
+        EXPECT_GE(way.norm(), 0.02 * (1 - 1e-12));
+        EXPECT_LE(way.norm(), 0.03 * (1 + 1e-12));
+        EXPECT_GE(way.z(), 0);
+        ++quadrants[(way.x() < 0 ? 1 : 0) + (way.y() < 0 ? 2 : 0)];
+    }
+    EXPECT_EQ(quadrants[2], 0);  // x > 0, y < 0
+    const auto third = static_cast<double>(scene.particleHandler.getSize()) / 3;
+    for (const int k : {0, 1, 3}) EXPECT_NEAR(quadrants[k], third, 5 * std::sqrt(third));
+}
+
+// A cylinder along x that is shifted and turned: two turns by a quarter make one about y of all three, so
+// that it points against z. The number of grains is random: 129 there.
+TEST(MercuryPrograms, cylinderInsertionBoundary) {
+    Empty scene;
+    SphericalParticle grain(scene.species);
+    grain.setRadius(0.001);
+    CylinderInsertionBoundary insertion;
+    insertion.set(&grain, 100, 0, 0.02, 0.01, 0.05, {1, 0, 0});
+    EXPECT_LT(
+        (insertion.getOrientationMatrix() - (Eigen::Matrix3d() << 0, 0, 1, 0, 1, 0, -1, 0, 0).finished())
+            .norm(),
+        1e-3);
+    insertion.shiftBoundary({0.5, 0.5, 0.5});
+    EXPECT_TRUE(insertion.getOrigin() == Vec3D(0.5, 0.5, 0.5));
+    insertion.rotateBoundary({constants::pi / 2.0, constants::pi / 2.0, constants::pi / 2.0});
+    EXPECT_LT(
+        (insertion.getOrientationMatrix() - (Eigen::Matrix3d() << -1, 0, 0, 0, 1, 0, 0, 0, -1).finished())
+            .norm(),
+        1e-3);
+    insertion.checkBoundaryBeforeTimeStep(&scene);
+    const auto number = static_cast<double>(scene.particleHandler.getSize());
+    EXPECT_GT(number, 200);
+    Vec3D sum = Vec3D::Zero();
+    for (auto p : scene.particleHandler) {
+        const Vec3D way = p->getPosition() - Vec3D(0.5, 0.5, 0.5);
+        EXPECT_LE(std::hypot(way.x(), way.y()), 0.02 * (1 + 1e-12));
+        EXPECT_LE(way.z(), -0.01 * (1 - 1e-12));
+        EXPECT_GE(way.z(), -0.05 * (1 + 1e-12));
+        sum += way;
+    }
+    // Means of even points: deviations of r / 2 across, and of the height over sqrt(12) along it.
+    EXPECT_NEAR(sum.x() / number, 0, 4 * 0.01 / std::sqrt(number));
+    EXPECT_NEAR(sum.y() / number, 0, 4 * 0.01 / std::sqrt(number));
+    EXPECT_NEAR(sum.z() / number, -0.03, 4 * 0.04 / std::sqrt(12 * number));
+    const std::string oblique = refusal([&] {
+        CylinderInsertionBoundary().set(&grain, 1, 0, 1, 0, 1, {1, 1, 0});
+    });
+    EXPECT_TRUE(isOneSentence(oblique) && contains(oblique, "axis = (1, 1, 0)")) << oblique;
+    EXPECT_TRUE(isOneSentence(refusal([&] {
+        CylinderInsertionBoundary().set(&grain, 1, 2, 1, 0, 1, {1, 0, 0});
+    })));
+}
+
 // A cube of triangles from a VTK file, on which grains fall that were put at random where there was room.
 TEST(MercuryPrograms, triangleWallCube) {
     const TestFolder folder;

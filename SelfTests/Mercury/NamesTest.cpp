@@ -106,7 +106,7 @@ TEST(MercuryNames, theScriptMakesTheMechanicalChanges) {
         EXPECT_EQ(result.exitCode, 0);
         return result.output;
     };
-    for (const auto& [there, here] : std::array<std::pair<const char*, const char*>, 13>{{
+    for (const auto& [there, here] : std::array<std::pair<const char*, const char*>, 14>{{
              {"double z = p->getPosition().Z + v[2].X;", "double z = p->getPosition().z() + v[2].x();"},
              {"// v.X stays in a comment", "// v.X stays in a comment"},
              {"Vec3D::dot(a, getMax()) * Vec3D::cross(b, c).getLength()",
@@ -122,6 +122,8 @@ TEST(MercuryNames, theScriptMakesTheMechanicalChanges) {
              {"std::vector<BaseParticle*>::iterator pIt = all.begin();", "auto pIt = all.begin();"},
              {"std::vector<BaseParticle*> all{new BaseParticle};",
               "std::vector<SphericalParticle*> all{new SphericalParticle};"},
+             {"void computeExternalForces(BaseParticle* p) override",
+              "void computeExternalForces(MercuryForcedGrain p) override"},
              {"setXMax(MIN.Xa, atX)", "setXMax(MIN.Xa, atX)"},
              {"auto i = dynamic_cast<BondedInteraction*>(interactionHandler.getInteraction(f(p), q, 0));",
               "auto i = interactionHandler.getInteraction(f(p), q, 0);"},

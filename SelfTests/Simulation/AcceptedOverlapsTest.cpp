@@ -43,12 +43,14 @@ std::vector<GrainMotion> pairOf(double share) {
     return {{.radius = r, .position = {0, 0, 5 * r}}, {.radius = r, .position = {0, 0, (7 - share) * r}}};
 }
 
+/// The refusal of a start; 0: nothing is accepted.
+std::string start(const std::vector<GrainMotion>& grains, double accepted) {
+    Bed bed(grains);
+    if (accepted > 0) bed.acceptOverlaps(accepted);
+    return refusal([&] { bed.initialise(); });
+}
+
 TEST(AcceptedOverlaps, areUpToTheShareThatIsGiven) {
-    const auto start = [](const std::vector<GrainMotion>& grains, double accepted) {
-        Bed bed(grains);
-        if (accepted > 0) bed.acceptOverlaps(accepted);
-        return refusal([&] { bed.initialise(); });
-    };
     const std::string text = start(pairOf(0.1), 0);
     EXPECT_TRUE(isOneSentence(text));
     EXPECT_TRUE(
@@ -64,22 +66,24 @@ TEST(AcceptedOverlaps, areUpToTheShareThatIsGiven) {
 
 // Of several, the deepest is named, wherever it stands in the list of contacts.
 TEST(AcceptedOverlaps, nameTheDeepestOfSeveral) {
-    const auto start = [](double third) {
+    const auto startWith = [](double third) {
         Bed bed({{.radius = r, .position = {0, 0, 5 * r}},
                  {.radius = r, .position = {0, 0, 6.9 * r}},
                  {.radius = r, .position = {0, 0, third * r}},
                  {.radius = r, .position = {9 * r, 0, 0.85 * r}}});
         return refusal([&] { bed.initialise(); });
     };
-    EXPECT_TRUE(contains(start(8.7), "particle 1 and particle 2: initial overlap = 0.0002 m is 20 %"));
-    EXPECT_TRUE(contains(start(8.85), "particle 3 and wall 0: initial overlap = 0.00015 m is 15 %"));
-    EXPECT_TRUE(contains(start(3.2), "particle 0 and particle 2: initial overlap = 0.0002 m is 20 %"));
+    EXPECT_TRUE(contains(startWith(8.7), "particle 1 and particle 2: initial overlap = 0.0002 m is 20 %"));
+    EXPECT_TRUE(contains(startWith(8.85), "particle 3 and wall 0: initial overlap = 0.00015 m is 15 %"));
+    EXPECT_TRUE(contains(startWith(3.2), "particle 0 and particle 2: initial overlap = 0.0002 m is 20 %"));
 }
 
 TEST(AcceptedOverlaps, areAShareUpToThatOfARun) {
     Bed bed(pairOf(0));
-    EXPECT_EQ(refusal([&] { bed.acceptOverlaps(0.5); }), "");
-    for (const double share : {0.51, -0.1, infinity, std::nan("")}) {
+    EXPECT_EQ(refusal([&] { bed.acceptOverlaps(1); }), "");
+    EXPECT_EQ(start(pairOf(0.5), 1), "");
+    EXPECT_TRUE(contains(start(pairOf(0.6), 1), "at most 50 %."));
+    for (const double share : {1.01, -0.1, infinity, std::nan("")}) {
         const std::string text = refusal([&] { bed.acceptOverlaps(share); });
         EXPECT_TRUE(isOneSentence(text)) << share;
         EXPECT_TRUE(contains(text, "accepted overlap")) << text;

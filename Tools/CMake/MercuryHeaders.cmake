@@ -10,7 +10,8 @@ function(pendular_write_mercury_headers folder)
         Boundaries/CubeDeletionBoundary Boundaries/FluxBoundary Boundaries/LeesEdwardsBoundary
         Boundaries/SphereInsertionBoundary Boundaries/PolydisperseInsertionBoundary Boundaries/DropletBoundary
         Boundaries/SubcriticalMaserBoundary Boundaries/ConstantMassFlowMaserBoundary
-        Boundaries/AngledPeriodicBoundary Boundaries/TimeDependentPeriodicBoundary Walls/TriangulatedWall
+        Boundaries/AngledPeriodicBoundary Boundaries/TimeDependentPeriodicBoundary Boundaries/CylinderInsertionBoundary
+        Walls/TriangulatedWall Walls/NurbsWall Walls/Screw Walls/Coil Walls/LevelSetWall Nurbs/NurbsSurface
         CG/CG CG/TimeAveragedCG CG/Functions/Gauss CG/Functions/Lucy CG/Functions/Heaviside
         Species/Species Math/ExtendedMath Math/Helpers Math/PSD Math/RNG Math/Vector)
     foreach(normal IN ITEMS LinearViscoelastic LinearPlasticViscoelastic HertzianViscoelastic

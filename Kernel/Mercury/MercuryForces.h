@@ -1,0 +1,63 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Step/StepPart.h"
+
+namespace pendular {
+
+/// A grain in computeExternalForces(), with what the driver adds there.
+class MercuryForcedGrain : public GrainReference {
+public:
+    /// What acts on a grain.
+    struct Load {
+        Vec3D force = Vec3D::Zero(), torque = Vec3D::Zero();  // N, N m
+    };
+    MercuryForcedGrain(const GrainReference& grain, Load& of) : GrainReference(grain), load(&of) {}
+    [[nodiscard]] MercuryForcedGrain* operator->() { return this; }
+    [[nodiscard]] const MercuryForcedGrain* operator->() const { return this; }
+    void addForce(const Vec3D& force) const { load->force += force; }      // N
+    void addTorque(const Vec3D& torque) const { load->torque += torque; }  // N m
+
+private:
+    Load* load;
+};
+
+/// The forces that a driver gives each grain in computeExternalForces(), beside those of contacts and
+/// gravity, at the end of each step. They count as given by the driver in the energy ledger.
+class MercuryForces : public StepPart {
+public:
+    using Ask = std::function<void(MercuryForcedGrain)>;
+    explicit MercuryForces(Ask ofDriver) : ask(std::move(ofDriver)) {}
+    /// The driver has none.
+    void sleep() { isAsleep = true; }
+
+    [[nodiscard]] std::string_view name() const override { return "forces of the driver"; }
+    [[nodiscard]] Features features(const StepContext& /*scene*/) const override {
+        return isAsleep ? Features{} : Features{Feature::OwnPart};
+    }
+    [[nodiscard]] std::span<const Conflict> ownConflicts() const override;
+    void beforeMotion(StepContext& step) override;
+    void afterForces(StepContext& step) override;
+    void finish(StepContext& step) override;
+    void takeBack(StepContext& step) override;
+    void visitState(StateArchive& archive, StepContext& scene) override;
+
+private:
+    /// A grain that can move, in the order of identities.
+    struct Pushed {
+        std::uint32_t identity = 0;
+        MercuryForcedGrain::Load load = {}, before = {};
+        Vector<double> velocity{0, 0, 0}, spin{0, 0, 0};              // m/s, rad/s, at the start of the step
+        Vector<double> velocityBefore{0, 0, 0}, spinBefore{0, 0, 0};  // before the part of the new force
+    };
+    void book(StepContext& step) const;
+
+    Ask ask;
+    std::vector<Pushed> pushed;
+    bool isAsleep = false, isAccelerated = false;
+};
+
+}  // namespace pendular

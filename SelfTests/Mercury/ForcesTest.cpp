@@ -1,0 +1,295 @@
+// Forces that a driver gives each grain in computeExternalForces(), and programs of MercuryDPM's that have
+// such.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "Mercury3D.h"
+#include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/TestFolder.h"
+
+namespace pendular::mercuryForcesTest {
+namespace {
+
+using support::contains;
+using support::isOneSentence;
+using support::refusal;
+using support::TestFolder;
+
+// A pair that holds together goes round the origin, to which it is drawn, in a wedge of a quarter or without.
+class AngledPair : public DPMBase {
+public:
+    explicit AngledPair(bool isWedge) {
+        LinearViscoelasticFrictionReversibleAdhesiveSpecies species;
+        species.setDensity(6.0 / constants::pi);
+        species.setStiffness(1e2);
+        species.setAdhesionStiffness(1e2);
+        species.setAdhesionForceMax(1e-1 * species.getAdhesionStiffness());
+        // there with a rolling friction, whose springs are not handed over
+        speciesHandler.copyAndAddObject(species);
+        setTimeStep(0.01 * species.getCollisionTime(1.0));
+        setQuiet();
+        acceptOverlaps(0.21);
+        if (!isWedge) return;
+        AngledPeriodicBoundary b;
+        b.set(Vec3D(1, 0, 0), Vec3D(0, -1, 0), Vec3D(0, 0, 0));
+        boundaryHandler.copyAndAddObject(b);
+    }
+    void computeExternalForces(MercuryForcedGrain p) override {
+        if (!p->isFixed()) {
+            const Vec3D normal = p->getPosition() / p->getPosition().norm();
+            p->addForce(-normal * p->getMass());
+            computeForcesDueToWalls(p);
+        }
+    }
+    void setupInitialConditions() override {
+        const Mdouble R = 4.0, d = 0.9;
+        SphericalParticle p;
+        p.setSpecies(speciesHandler.getObject(0));
+        p.setRadius(0.5);
+        p.setPosition({R, 0, 0});
+        p.setVelocity({0, std::sqrt(R), 0});
+        particleHandler.copyAndAddObject(p);
+        const Mdouble c = (2.0 * R * R - d * d) / (2.0 * R * R), s = std::sqrt(1.0 - c * c);
+        p.setPosition({R * c, R * s, 0});
+        p.setVelocity({-std::sqrt(R) * s, std::sqrt(R) * c, 0});
+        particleHandler.copyAndAddObject(p);
+        setMin(-R - 1, -R - 1, -R - 1), setMax(R + 1, R + 1, R + 1);
+    }
+};
+
+TEST(MercuryPrograms, angledPeriodicBoundaryWithABodyForce) {
+    AngledPair dpm(true), dpm2(false);
+    for (AngledPair* scene : {&dpm, &dpm2}) {
+        scene->setTimeMax(4.0 * constants::pi);
+        scene->solve();
+    }
+    // A mass of 1 that is drawn by 1 goes round a circle of radius 4 with 2 m/s: once in 4 pi.
+    int found = 0;
+    for (auto grain : dpm.particleHandler) {
+        if (dpm.getCopies().isCopy(grain->getId())) continue;
+        ++found;
+        EXPECT_NEAR(grain->getPosition().norm(), 4, 0.02);
+        EXPECT_NEAR(grain->getVelocity().norm(), 2, 0.02);
+        // One of the other scene is where this one or a turn of it is.
+        double nearest = 10;
+        for (auto other : dpm2.particleHandler)
+            for (Vec3D at = other->getPosition(), v = other->getVelocity(); const int turn : {0, 1, 2, 3}) {
+                static_cast<void>(turn);
+                nearest =
+                    std::min(nearest, (grain->getPosition() - at).norm() + (grain->getVelocity() - v).norm());
+                at = Vec3D(-at.y(), at.x(), at.z()), v = Vec3D(-v.y(), v.x(), v.z());
+            }
+        EXPECT_LT(nearest, 1e-9);
+    }
+    EXPECT_EQ(found, 2);
+}
+
+/// Plastic grains that stick together, as the clusters of the two programs have them.
+LinearPlasticViscoelasticFrictionSpecies ofClusters() {
+    // A loading stiffness by the time of a contact of grains of 1 kg (a setter of the species there).
+    const Mdouble mass = 2000 * sphereMass(0.03, 1), restitution = 0.5,
+                  both = std::pow(constants::pi, 2) + std::pow(std::log(restitution), 2),
+                  time = std::sqrt(mass * both / (2 * 1e3)), loading = 0.5 * both / (time * time);
+    LinearPlasticViscoelasticFrictionSpecies species;
+    species.setDensity(2700);
+    species.setPlasticParameters(loading, 5 * loading, loading, 0.1);
+    species.setDissipation(-std::log(restitution) / time);
+    species.setSlidingFrictionCoefficient(0.5);
+    species.setSlidingStiffness(species.getLoadingStiffness() * 2.0 / 7.0);
+    species.setSlidingDissipation(species.getDissipation() * 2.0 / 7.0);
+    species.setRollingFrictionCoefficient(0.3);
+    species.setRollingStiffness(species.getLoadingStiffness() * 2.0 / 7.0);
+    species.setRollingDissipation(species.getDissipation() * 2.0 / 7.0);
+    return species;
+}
+
+/// Grains that are drawn to the origin until they are at rest: a cluster.
+class Cluster : public DPMBase {
+public:
+    /// @param clusterRadius m, from which their number follows: (R / r / (1 - e p))^3 e, where p is the depth
+    /// of the plastic law and e = 0.58 the solid fraction of loose grains
+    Cluster(double clusterRadius, double radius) {
+        SphericalParticle grain(speciesHandler.copyAndAddObject(ofClusters()));
+        grain.setRadius(radius);
+        const auto count = static_cast<int>(std::pow(clusterRadius / radius / (1 - 0.58 * 0.1), 3) * 0.58);
+        for (int k = 0; k < count; ++k) {
+            const double angle = 2 * constants::pi * k / count;
+            grain.setPosition(2 * radius * Vec3D(std::cos(angle), std::sin(angle), 0));
+            particleHandler.copyAndAddObject(grain);
+        }
+        setTimeStep(1e-4);
+        setTimeMax(2);
+        setQuiet();
+    }
+    void computeExternalForces(MercuryForcedGrain p) override {
+        p->addForce(-p->getMass() * (500 * p->getPosition() + 20 * p->getVelocity()));
+    }
+};
+
+// Three clusters of three grains, which stay together on their way: nine grains, nine contacts.
+TEST(MercuryPrograms, clustersAtGivenPlaces) {
+    DPMBase problem;
+    problem.setQuiet();
+    problem.setTimeStep(1e-4);
+    problem.setTimeMax(0.5);
+    problem.setDomain(Vec3D(0, 0, 0), Vec3D(0.4, 0.4, 0.4));
+    SphericalParticle p(problem.speciesHandler.copyAndAddObject(ofClusters()));
+    problem.acceptOverlaps(0.2);
+    for (const Vec3D& position : {Vec3D(0.1, 0.2, 0.1), Vec3D(0.2, 0.2, 0.2), Vec3D(0.1, 0.2, 0.3)}) {
+        Cluster cluster(0.05, 0.03);
+        cluster.solve();
+        EXPECT_EQ(cluster.particleHandler.getSize(), 3u);
+        for (auto grain : cluster.particleHandler) {
+            p.setRadius(grain->getRadius());
+            p.setPosition(position + grain->getPosition());
+            p.setVelocity(Vec3D(1, 0, 0));
+            problem.particleHandler.copyAndAddObject(p);
+        }
+    }
+    problem.solve();
+    helpers::check(9, static_cast<double>(problem.particleHandler.getSize()), 0.1,
+                   "Number of particles check");
+    helpers::check(9, static_cast<double>(problem.interactionHandler.getSize()), 0.1,
+                   "Number of interactions check");
+}
+
+// Clusters come at random into a box, until there is no room for more: each stays together.
+TEST(MercuryPrograms, clustersAtRandomPlaces) {
+    DPMBase problem;
+    problem.setQuiet();
+    problem.setGravity(Vec3D(0, 0, -0.0981));
+    problem.setTimeStep(1e-4);
+    problem.setTimeMax(0.5);
+    problem.setDomain(Vec3D(-0.4, -0.05, -0.4), Vec3D(0.4, 0.05, 0.4));
+    SphericalParticle p(problem.speciesHandler.copyAndAddObject(ofClusters()));
+    problem.acceptOverlaps(0.2);
+    std::vector<Vec3D> centres;
+    for (int failed = 0; failed <= 100;) {
+        const Vec3D centre(problem.random.getRandomNumber(-0.4, -0.2),
+                           problem.random.getRandomNumber(-0.01, 0.01),
+                           problem.random.getRandomNumber(0.2, 0.4));
+        const bool isFree = std::ranges::all_of(
+            centres, [&](const Vec3D& other) { return (other - centre).norm() > 4 * 0.03; });
+        if (isFree) centres.push_back(centre);
+        else ++failed;
+    }
+    for (const Vec3D& centre : centres) {
+        Cluster cluster(0.05, 0.03);
+        cluster.solve();
+        for (auto grain : cluster.particleHandler) {
+            p.setRadius(grain->getRadius());
+            p.setPosition(centre + grain->getPosition());
+            p.setVelocity(Vec3D(0.2, 0, 0));
+            problem.particleHandler.copyAndAddObject(p);
+        }
+    }
+    EXPECT_GE(centres.size(), 2u);
+    problem.solve();
+    EXPECT_EQ(problem.particleHandler.getSize(), 3 * centres.size());
+    EXPECT_GE(problem.interactionHandler.getSize(), 3 * centres.size());
+}
+
+/// One grain of 1 kg on a spring of its driver's, k = 4 N/m, with a torque.
+class OnASpring : public DPMBase {
+public:
+    double torque = 0;  // N m
+    explicit OnASpring(const Vec3D& gravity = Vec3D::Zero()) {
+        LinearViscoelasticSlidingFrictionSpecies species;
+        species.setDensity(1 / sphereMass(0.1, 1));
+        species.setStiffness(1000);
+        species.setSlidingStiffness(1000), species.setSlidingFrictionCoefficient(0.5);
+        SphericalParticle grain(speciesHandler.copyAndAddObject(species));
+        grain.setRadius(0.1);
+        grain.setPosition({1, 0, 0});
+        grain.setVelocity({0, 2, 0});
+        particleHandler.copyAndAddObject(grain);
+        setGravity(gravity);
+        setTimeStep(1e-3);
+        setTimeMax(3);
+        setQuiet();
+    }
+    void computeExternalForces(MercuryForcedGrain p) override {
+        p->addForce(-4 * p->getPosition());
+        p->addTorque(Vec3D(0, 0, torque));
+    }
+};
+
+// Velocity Verlet's own answer for an oscillator: a circle with sin(w h / 2) = 2 h / 2, and the radius 1
+// along x; along y speeds err by a share of (2 h)^2 / 8.
+TEST(MercuryForces, moveAGrainAsVerletDoes) {
+    OnASpring scene({0, 0, -1});
+    scene.torque = 0.004;  // 1 rad/s^2, as the inertia is 0.004 kg m^2
+    scene.solve();
+    const auto grain = scene.particleHandler.getObject(0);
+    const double step = 2 * std::asin(1e-3), angle = step * 3000;
+    EXPECT_NEAR(grain.getPosition().x(), std::cos(angle), 1e-12);
+    EXPECT_NEAR(grain.getPosition().y(), std::sin(angle) * 2e-3 / std::sin(step), 1e-12);
+    EXPECT_NEAR(grain.getPosition().z(), -0.25 * (1 - std::cos(angle)), 1e-12);  // beside gravity
+    EXPECT_NEAR(grain.getAngularVelocity().z(), 3, 1e-12);
+    EXPECT_NEAR((grain.getForce() - (-4 * grain.getPosition() - Vec3D(0, 0, 1))).norm(), 0, 1e-12);
+}
+
+TEST(MercuryForces, areBookedAsGivenByTheDriver) {
+    OnASpring scene;
+    scene.torque = 0.001;
+    scene.keepEnergyLedger();
+    scene.solve();
+    const auto grain = scene.particleHandler.getObject(0);
+    const double now = scene.getKineticEnergy() + scene.getRotationalEnergy();
+    EXPECT_NEAR(scene.energyLedger().driver, now - 2, 1e-13);
+    EXPECT_NEAR(scene.energyUnaccountedFor(), 0, 1e-13);
+    EXPECT_NEAR(scene.energyLedger().driver,
+                2 - 2 * grain.getPosition().squaredNorm() + scene.getRotationalEnergy(), 1e-5);
+}
+
+TEST(MercuryForces, goOnFromARestartFile) {
+    const TestFolder folder;
+    const auto named = [&](OnASpring& scene) -> OnASpring& {
+        scene.setName(folder.name());
+        scene.setFileType(FileType::NO_FILE);
+        scene.torque = 0.001;
+        return scene;
+    };
+    OnASpring whole, first, second;
+    named(whole).solve();
+    named(first).setTimeMax(1);
+    first.keepRestartFile();
+    first.solve();
+    named(second).restartFrom(folder.name() + "-restart.h5");
+    second.keepEnergyLedger(false);
+    second.solve();
+    const auto a = whole.particleHandler.getObject(0), b = second.particleHandler.getObject(0);
+    EXPECT_EQ(a.getPosition(), b.getPosition());
+    EXPECT_EQ(a.getVelocity(), b.getVelocity());
+    EXPECT_EQ(a.getAngularVelocity(), b.getAngularVelocity());
+}
+
+TEST(MercuryForces, areRefusedWhereTheyAreNoNumberOrDoNotFit) {
+    struct NotFinite : OnASpring {
+        void computeExternalForces(MercuryForcedGrain p) override { p->addForce(Vec3D(0, std::nan(""), 0)); }
+    } scene;
+    const std::string text = refusal([&] { scene.solve(); });
+    EXPECT_TRUE(isOneSentence(text) && contains(text, "particle 0") && contains(text, "is not finite"))
+        << text;
+    OnASpring adams;
+    adams.setIntegrator(integrators::adamsMoulton);
+    const std::string steps = refusal([&] { adams.solve(); });
+    EXPECT_TRUE(isOneSentence(steps) && contains(steps, "forces of the driver")) << steps;
+    DPMBase without;  // which has none: the part sleeps
+    without.setIntegrator(integrators::adamsMoulton);
+    LinearViscoelasticSpecies species;
+    species.setDensity(1000), species.setStiffness(1000);
+    SphericalParticle grain(without.speciesHandler.copyAndAddObject(species));
+    grain.setRadius(0.1);
+    without.particleHandler.copyAndAddObject(grain);
+    without.setTimeStep(1e-3), without.setTimeMax(0), without.setQuiet();
+    EXPECT_EQ(refusal([&] { without.solve(); }), "");
+}
+
+}  // namespace
+}  // namespace pendular::mercuryForcesTest
