@@ -26,6 +26,26 @@ if inside sh -c 'command -v c++ g++ gcc cc'; then
 fi
 inside sh -c 'cd /tmp && pendular WetTower | tail -1 && python3 /usr/share/pendular/Examples/restart.py'
 
+# The server of runs in the browser, where the package has its page.
+if [[ -e $root/usr/share/pendular/ViewPage/main.js ]]; then
+    cat >"$root/tmp/view.py" <<'END'
+import contextlib, io, json, urllib.request
+import pendular
+printed = io.StringIO()
+with contextlib.redirect_stdout(printed):
+    pendular.view("/tmp")
+address = printed.getvalue().strip()
+cookie = urllib.request.urlopen(address).headers["Set-Cookie"].split(";")[0]
+def ask(path):
+    return urllib.request.urlopen(urllib.request.Request(address.split("?")[0] + path, headers={"Cookie": cookie})).read()
+assert b"main.js" in ask("") and b"webgl2" in ask("main.js")
+drivers = [driver["driver"] for driver in json.loads(ask("api/drivers"))]
+assert "WetTower" in drivers, drivers
+print("view:", len(drivers), "drivers")
+END
+    inside python3 /tmp/view.py
+fi
+
 cat >"$root/tmp/hash.py" <<'END'
 import pendular
 scene = pendular.Scene()

@@ -138,11 +138,15 @@ void writeImage(const std::filesystem::path& path, const FieldSums& sums, double
     const FieldGrid& grid = sums.grid();
     const auto& n = grid.counts();
     const std::string extent = fmt::format("0 {} 0 {} 0 {}", n[0] - 1, n[1] - 1, n[2] - 1);
+    // VTK has no grids around an axis: x is r there, and whoever reads it is told.
+    const std::vector<PolyDataField> whole =
+        grid.isCylindrical() ? std::vector<PolyDataField>{{"cylindrical", 1, std::vector<double>{1}}}
+                             : std::vector<PolyDataField>{};
     VtkDocument document(
         "ImageData", time,
         fmt::format(" WholeExtent=\"{}\" Origin=\"{} {} {}\" Spacing=\"{} {} {}\"", extent, grid.at(0, 0),
                     grid.at(1, 0), grid.at(2, 0), grid.spacing(0), grid.spacing(1), grid.spacing(2)),
-        threads);
+        threads, whole);
     document.add(fmt::format("<Piece Extent=\"{}\">\n", extent));
     std::vector<PolyDataField> fields = fieldsOf(sums);
     // VTK has x the fastest.

@@ -46,6 +46,10 @@ void Hdf5Frames::add(const SceneFrame& frame, int threads) {
         write("walls", {positions("corner_m", frame.walls->points), {"end", 1, frame.walls->ends}});
         write("walls", frame.walls->cellFields);
     }
+    if (frame.droplets) {
+        write("droplets", {positions("position_m", frame.droplets->points)});
+        write("droplets", frame.droplets->pointFields);
+    }
     file.close();
     series.add(frame.step, frame.time);
 }

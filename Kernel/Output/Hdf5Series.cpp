@@ -25,6 +25,10 @@ std::vector<double> columnOf(const Hdf5File& file, const std::string& name) {
     return numbers;
 }
 
+std::filesystem::path fileOfStep(const std::string& beginning, std::uint64_t step) {
+    return fmt::format("{}-{:09}.h5", beginning, step);
+}
+
 std::string groupOf(std::uint64_t step) { return fmt::format("frames/{:09}", step); }
 
 }  // namespace
@@ -54,6 +58,14 @@ Hdf5Series::Times Hdf5Series::readIndex(const std::filesystem::path& path) {
     return found;
 }
 
+std::vector<Hdf5Entry> readHdf5Series(const std::filesystem::path& path) {
+    const std::string beginning = path.parent_path() / path.stem();
+    std::vector<Hdf5Entry> entries;
+    for (const auto& [step, time] : Hdf5Series::readIndex(path))
+        entries.push_back({time, fileOfStep(beginning, step)});
+    return entries;
+}
+
 void Hdf5Series::check(const std::string& name) { checkFrameIndex(indexOf(name), readIndex); }
 
 Hdf5Series::Times Hdf5Series::formerTimes(bool needed) const {
@@ -78,9 +90,7 @@ Hdf5Series::Hdf5Series(std::string name, double keptUntil) : beginning(std::move
     for (const std::filesystem::path& path : dropped) removeFile(path);
 }
 
-std::filesystem::path Hdf5Series::fileOf(std::uint64_t step) const {
-    return fmt::format("{}-{:09}.h5", beginning, step);
-}
+std::filesystem::path Hdf5Series::fileOf(std::uint64_t step) const { return fileOfStep(beginning, step); }
 
 void Hdf5Series::add(std::uint64_t step, double time) {
     times[step] = time;

@@ -4,8 +4,18 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace pendular {
+
+/// A frame of a list.
+struct Hdf5Entry {
+    double time;                 // s
+    std::filesystem::path file;  // beside the list
+};
+
+/// The frames of a list BEGINNING.h5, in order. Throws InputError if it is no such list.
+std::vector<Hdf5Entry> readHdf5Series(const std::filesystem::path& path);
 
 /// A list of frames, BEGINNING.h5, in which each of them, a file BEGINNING-STEP.h5, appears as the group
 /// frames/STEP. Every file is complete at any moment, so a run that is killed leaves all frames but the one
@@ -26,6 +36,7 @@ public:
     void add(std::uint64_t step, double time);
 
 private:
+    friend std::vector<Hdf5Entry> readHdf5Series(const std::filesystem::path& path);
     using Times = std::map<std::uint64_t, double>;  // s, of each frame, by its step
 
     static Times readIndex(const std::filesystem::path& path);

@@ -11,6 +11,7 @@ void ParaViewFrames::add(SceneFrame frame, int threads) {
     if (frame.contacts) write("contacts", *frame.contacts);
     if (frame.walls) write("walls", *frame.walls);
     if (frame.shapes) write("shapes", *frame.shapes);
+    if (frame.droplets) write("droplets", *frame.droplets);
     series.write();
 }
 

@@ -6,7 +6,7 @@
 namespace pendular {
 
 /// NAME.pvd, and of each frame NAME-particles-STEP.vtp, NAME-contacts-STEP.vtp and NAME-walls-STEP.vtp; of
-/// grains that are no spheres NAME-shapes-STEP.vtp, their surfaces.
+/// grains that are no spheres NAME-shapes-STEP.vtp, their surfaces; with sprays NAME-droplets-STEP.vtp.
 class ParaViewFrames {
 public:
     ParaViewFrames(const std::string& name, double keptUntil) : series(name, keptUntil) {}

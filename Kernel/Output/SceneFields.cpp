@@ -102,13 +102,40 @@ PolyDataField fieldOf(const std::string& name, const FrameContent::GrainValue& v
     return {name, valueOf.index() == 0 ? 1u : 3u, std::move(numbers)};
 }
 
+/// The droplets of sprays in flight, in the order in which they came out.
+template <class Real>
+PolyData dropletPoints(const SprayHandler& sprays) {
+    PolyData data;
+    std::vector<Real> radii, velocities, volumes;
+    std::vector<std::int32_t> numbers;
+    for (const Droplet& droplet : sprays.droplets()) {
+        data.corners.push_back(static_cast<std::int32_t>(data.points.size()));
+        data.points.push_back(droplet.position);
+        radii.push_back(static_cast<Real>(droplet.radius));
+        volumes.push_back(static_cast<Real>(droplet.volume));
+        numbers.push_back(static_cast<std::int32_t>(droplet.spray));
+        for (const auto axis : axes) velocities.push_back(static_cast<Real>(droplet.velocity.*axis));
+    }
+    if (!data.corners.empty()) data.ends = {static_cast<std::int32_t>(data.corners.size())};
+    data.pointFields = {{"radius_m", 1, std::move(radii)},
+                        {"velocity_m_per_s", 3, std::move(velocities)},
+                        {"volume_m3", 1, std::move(volumes)},
+                        {"spray", 1, std::move(numbers)}};
+    return data;
+}
+
 using AddedFields = std::vector<std::pair<std::string, FrameContent::GrainValue>>;
 
 template <class Real>
 SceneFrame frameOf(const FrameContent& content, const AddedFields& added, const Scene& scene) {
     const auto& store = scene.particleHandler.store();
-    SceneFrame frame{
-        scene.getNumberOfTimeSteps(), scene.getTime(), grainPoints<Real>(store, scene.laws()), {}, {}, {}};
+    SceneFrame frame{scene.getNumberOfTimeSteps(),
+                     scene.getTime(),
+                     grainPoints<Real>(store, scene.laws()),
+                     {},
+                     {},
+                     {},
+                     {}};
     for (const auto& [name, valueOf] : added)
         frame.grains.pointFields.push_back(fieldOf<Real>(name, valueOf, store));
     if (content.stress) frame.grains.pointFields.push_back(grainStresses<Real>(scene.contacts(), store));
@@ -127,6 +154,7 @@ SceneFrame frameOf(const FrameContent& content, const AddedFields& added, const 
         const auto [lowest, highest] = boxAround(store, scene.contacts().periodicBox());
         frame.walls = wallPolygons(scene.wallHandler, lowest, highest);
     }
+    if (!scene.sprayHandler.isEmpty()) frame.droplets = dropletPoints<Real>(scene.sprayHandler);
     return frame;
 }
 

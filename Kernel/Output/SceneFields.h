@@ -57,7 +57,8 @@ struct SceneFrame {
     double time = 0;  // s
     PolyData grains;
     std::optional<PolyData> contacts, walls;
-    std::optional<PolyData> shapes;  // of grains that are no spheres
+    std::optional<PolyData> shapes;    // of grains that are no spheres
+    std::optional<PolyData> droplets;  // of sprays, where the scene has any
 };
 
 /// Which fields a frame has.

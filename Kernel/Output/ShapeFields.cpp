@@ -1,5 +1,6 @@
 #include "Kernel/Output/ShapeFields.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -80,6 +81,43 @@ PolyData shapeSurfaces(const ParticleStore& grains, const GrainShapes& shapes) {
         body.resize(data.ends.size(), static_cast<std::int32_t>(grains.bodies.bodyOf(own)));
     }
     data.cellFields = {{"identity", 1, std::move(identity)}, {"body", 1, std::move(body)}};
+    return data;
+}
+
+std::optional<PolyData> shapeSurfaces(const PolyData& points) {
+    const PolyDataField
+        *const lengths = points.pointField("half_lengths_m"),
+               *const first = points.pointField("n1"), *const second = points.pointField("n2"),
+               *const turns = points.pointField("orientation"), *const own = points.pointField("identity");
+    if (!lengths || !first || !second || !turns || !own || lengths->components != 3 ||
+        first->components != 1 || second->components != 1 || turns->components != 9 || own->components != 1)
+        return {};
+    PolyData data;
+    data.kind = PolyData::Cells::Polygons;
+    std::vector<std::int32_t> identity;
+    const std::vector<Vector<double>> directions = normals();
+    for (std::size_t k = 0; k < points.points.size(); ++k) {
+        const auto exponent = [](double n) {
+            return std::clamp(std::isnan(n) ? 2 : static_cast<int>(n), 2, 8);
+        };
+        const Superquadric shape{lengths->at(3 * k), lengths->at(3 * k + 1), lengths->at(3 * k + 2),
+                                 exponent(first->at(k)), exponent(second->at(k))};
+        const bool isBall = shape.isEllipsoid() && shape.a == shape.b && shape.b == shape.c;
+        if (isBall || !(shape.a > 0 && shape.b > 0 && shape.c > 0)) continue;
+        const auto lanes = SuperquadricLanes<double>::from(shape);
+        const auto place = static_cast<std::int32_t>(data.points.size());
+        for (const Vector<double>& n : directions) {
+            const Vector<double> p = supportPoint(lanes, n).point;
+            const auto row = [&](std::size_t r) {
+                return turns->at(9 * k + 3 * r) * p.x + turns->at(9 * k + 3 * r + 1) * p.y +
+                       turns->at(9 * k + 3 * r + 2) * p.z;
+            };
+            data.points.push_back(points.points[k] + Vector<double>{row(0), row(1), row(2)});
+        }
+        addPolygons(data, place);
+        identity.resize(data.ends.size(), static_cast<std::int32_t>(own->at(k)));
+    }
+    data.cellFields = {{"identity", 1, std::move(identity)}};
     return data;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Output/PolyData.h"
 
@@ -13,5 +15,9 @@ void addShapeFields(const ParticleStore& grains, const GrainShapes& shapes, Poly
 /// the body of each polygon's grain. Corners are where the surface has normals on circles of latitude and
 /// longitude: most of them where it is most curved.
 PolyData shapeSurfaces(const ParticleStore& grains, const GrainShapes& shapes);
+/// Those of grains that have the fields of addShapeFields() and identity, without the body; nothing where
+/// they have not. Balls are left out. What the fields do not tell, the rounding of a block's edges, is that
+/// of its exponents.
+std::optional<PolyData> shapeSurfaces(const PolyData& points);
 
 }  // namespace pendular

@@ -1,4 +1,5 @@
 #include "Kernel/Output/FieldFile.h"
+#include "Kernel/Output/Hdf5Frame.h"
 #include "Kernel/Output/Hdf5Output.h"
 #include "SelfTests/Fuzz/EditedState.h"
 #include "SelfTests/Fuzz/Target.h"
@@ -20,7 +21,65 @@ const EditedState& goodIndex(const std::string& name) {
     return state;
 }
 
+/// Two grains, one of which is no sphere, that touch each other and a wall.
+const EditedState& goodFrame(const std::filesystem::path& path) {
+    static const EditedState state = [&] {
+        using Doubles = std::vector<double>;
+        using Wholes = std::vector<std::int32_t>;
+        FieldFile file(path);
+        file.column("particles", {"position_m", 3, Doubles{0, 0, 0, 2e-3, 0, 0}});
+        file.column("particles", {"radius_m", 1, Doubles{1e-3, 1e-3}});
+        file.column("particles", {"identity", 1, Wholes{4, 7}});
+        file.column("particles", {"half_lengths_m", 3, Doubles{1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 2e-3}});
+        file.column("particles", {"n1", 1, Wholes{2, 4}});
+        file.column("particles", {"n2", 1, Wholes{2, 3}});
+        file.column("particles",
+                    {"orientation", 9, Doubles{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 1, 0, 0, 0, 0, 1}});
+        file.column("contacts", {"branch_m", 3, Doubles{2e-3, 0, 0, 0, 0, -1e-3}});
+        file.column("contacts", {"particle1", 1, Wholes{4, 7}});
+        file.column("walls", {"corner_m", 3, Doubles{0, 0, 0, 1, 0, 0, 0, 1, 0}});
+        file.column("walls", {"end", 1, Wholes{3}});
+        file.close();
+        return EditedState(path);
+    }();
+    return state;
+}
+
+/// Each cell has corners that are points, and each row its numbers.
+void requireWhole(const PolyData& data) {
+    for (const std::int32_t corner : data.corners)
+        static_cast<void>(data.points.at(static_cast<std::size_t>(corner)));
+    if (!data.ends.empty() && data.ends.back() != static_cast<std::int32_t>(data.corners.size()))
+        throw std::logic_error("a cell has corners that are not there");
+    for (const auto& [fields, rows] :
+         {std::pair{&data.pointFields, data.points.size()}, std::pair{&data.cellFields, data.ends.size()}})
+        for (const PolyDataField& field : *fields)
+            if (field.size() != rows * field.components) throw std::logic_error("a row has not its numbers");
+}
+
 }  // namespace
+
+/// An HDF5 frame with a content that was edited.
+Target hdf5Frame() {
+    return {"Hdf5Frame", [] { return EditedState::eachEdit(11, 1); },
+            [](std::string_view bytes) {
+                static const support::TestFolder folder = support::TestFolder::inMemory();
+                const std::filesystem::path path = folder.path() / "run-fields-000000001.h5";
+                EditedState state = goodFrame(path);
+                state.edit(bytes);
+                std::filesystem::remove(path);
+                state.write(path);
+                try {
+                    const SceneFrame frame = readHdf5Frame(path);
+                    requireWhole(frame.grains);
+                    for (const auto& part : {frame.contacts, frame.walls, frame.shapes})
+                        if (part) requireWhole(*part);
+                    return true;
+                } catch (const InputError&) {
+                    return false;
+                }
+            }};
+}
 
 /// The index of a series of HDF5 frames with a content that was edited, with which a run goes on from 0.5 s:
 /// what that leaves can be gone on with again.

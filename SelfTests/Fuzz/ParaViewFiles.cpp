@@ -1,3 +1,5 @@
+#include "Kernel/CoarseGraining/FieldFiles.h"
+#include "Kernel/CoarseGraining/FieldImage.h"
 #include "Kernel/Output/ParaViewSeries.h"
 #include "Kernel/Output/PolyData.h"
 #include "SelfTests/Fuzz/Target.h"
@@ -29,6 +31,28 @@ std::string series() {
     });
 }
 
+std::string fields() {
+    const FieldGrid grid("RZ", {0, 0, 0}, {4e-3, 4e-3, 6e-3}, 2e-3);
+    FieldSums sums(grid, SmoothingKernel(KernelShape::Gauss, 2, 2e-3), GrainGroups::none(),
+                   FieldContent::WithoutContacts);
+    GrainState state;
+    state.grains.push_back({{1e-3, 2e-3, 3e-3}, {0, 0, 1}, 1e-3, 1e-5});
+    sums.add(state);
+    return written("fields.vti", [&](const auto& path) { writeImage(path, sums, 0.25); });
+}
+
+/// Each point that is told of has its values.
+void readImage(const std::filesystem::path& path) {
+    for (const std::string field : {"", "velocity_m_per_s"}) {
+        const FieldImage image = readFieldImage(path, field);
+        const std::array last{image.places[0].size() - 1, image.places[1].size() - 1,
+                              image.places[2].size() - 1};
+        if ((last[0] + 1) * (last[1] + 1) * (last[2] + 1) * image.field.components != image.field.size())
+            throw std::logic_error("a field has not a value for each point");
+        static_cast<void>(image.at(last, image.field.components - 1));
+    }
+}
+
 /// What is read has the sizes that it says.
 void readPoly(const std::filesystem::path& path) {
     const PolyData data = readPolyData(path);
@@ -47,6 +71,11 @@ void readPoly(const std::filesystem::path& path) {
 Target polyData() {
     return {"PolyData", [] { return std::vector{grains()}; },
             [](std::string_view bytes) { return takesFile("grains.vtp", bytes, readPoly); }};
+}
+
+Target fieldImage() {
+    return {"FieldImage", [] { return std::vector{fields()}; },
+            [](std::string_view bytes) { return takesFile("fields.vti", bytes, readImage); }};
 }
 
 Target paraViewSeries() {

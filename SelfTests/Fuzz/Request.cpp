@@ -37,7 +37,7 @@ view::Reply answerTo(const view::Request& request) {
     }();
     static const view::RunFolder runs(folder.path());
     static view::Api api({token, {"localhost"}, "pendular"}, runs,
-                         {folder.path() / "page", folder.path() / "drivers", "'none'"}, 1);
+                         {folder.path() / "page", folder.path() / "drivers", {}, "'none'"}, 1);
     return isFilled ? api.answer(request) : view::Reply{};
 }
 

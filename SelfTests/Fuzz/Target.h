@@ -30,8 +30,10 @@ Target objFile();
 Target plyFile();
 Target polyData();
 Target paraViewSeries();
+Target fieldImage();
 Target summaryTable();
 Target hdf5Index();
+Target hdf5Frame();
 Target restartFile();
 Target restartContent();
 #ifdef PENDULAR_HAS_VIEW
@@ -43,8 +45,9 @@ inline std::vector<Target> allTargets() {
 #ifdef PENDULAR_HAS_VIEW
         request(),
 #endif
-        grainFile(), lammpsFile(),     triangleRows(), stlFile(),   objFile(),     plyFile(),
-        polyData(),  paraViewSeries(), summaryTable(), hdf5Index(), restartFile(), restartContent()};
+        grainFile(), lammpsFile(), triangleRows(),   stlFile(),       objFile(),
+        plyFile(),   polyData(),   paraViewSeries(), fieldImage(),    summaryTable(),
+        hdf5Index(), hdf5Frame(),  restartFile(),    restartContent()};
 }
 
 inline void writeBytes(const std::filesystem::path& path, std::string_view bytes) {

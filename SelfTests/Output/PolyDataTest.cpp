@@ -132,8 +132,7 @@ TEST(PolyDataFile, thatIsDamagedIsRefused) {
         EXPECT_EQ(reason.find('\n'), std::string::npos) << reason;
     }
     EXPECT_GT(refused, 99);  // all that were cut, a quarter, to begin with
-    EXPECT_TRUE(
-        support::contains(refusalOf("<VTKFile type=\"PolyData\">"), "no .vtp file with raw appended"));
+    EXPECT_TRUE(support::contains(refusalOf("<VTKFile type=\"PolyData\">"), "no VTK file with raw appended"));
     std::string huge = whole;
     huge.replace(huge.find("NumberOfPoints=\"9\""), 18, "NumberOfPoints=\"999999999999\"");
     EXPECT_TRUE(support::contains(refusalOf(huge), "ends too early"));

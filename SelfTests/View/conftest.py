@@ -15,17 +15,14 @@ import pytest
 class Server:
     """`view` in a folder, and one who asks it as its page does."""
 
-    def __init__(self, root, *options):
-        page = os.environ.get("PENDULAR_VIEW_PAGE", "")
-        if not os.path.exists(os.path.join(page, "main.js")):  # not built: enough for what asks the server itself
-            page = root.parent / "page"
-            page.mkdir(exist_ok=True)
-            for name in ("index.html", "main.js", "main.css", "icon.svg"):
-                (page / name).write_text("<!doctype html>")
-        command = [os.environ["PENDULAR_VIEW"], str(root), "--page", str(page), *options]
-        if "--drivers" not in options:
+    def __init__(self, root, *options, program=None, page=os.environ.get("PENDULAR_VIEW_PAGE", ""), stdin=None):
+        """page: None where the program is to find page and drivers by itself"""
+        command = [program or os.environ["PENDULAR_VIEW"], str(root), *options]
+        if page is not None:
+            command += ["--page", self.page_in(root.parent, page)]
+        if page is not None and "--drivers" not in options:
             command += ["--drivers", os.environ["PENDULAR_DRIVERS"]]
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.process = subprocess.Popen(command, stdin=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         while True:
             line = self.process.stdout.readline()
             found = re.match(r"http://[^:]+:(\d+)/\?token=([0-9a-f]{32})$", line)
@@ -35,6 +32,16 @@ class Server:
         self.address = line.strip()
         self.port, self.token = int(found[1]), found[2]
         self.cookie = f"pendular-{self.token[:8]}={self.token}"
+
+    @staticmethod
+    def page_in(folder, page):
+        """The built page, or, where it has not been built, one that is enough for what asks the server itself."""
+        if os.path.exists(os.path.join(page, "main.js")):
+            return page
+        (folder / "page").mkdir(exist_ok=True)
+        for name in ("index.html", "main.js", "main.css", "icon.svg"):
+            (folder / "page" / name).write_text("<!doctype html>")
+        return str(folder / "page")
 
     def ask(self, path, method="GET", body=None, at="127.0.0.1", **headers):
         """Status, content and headers of the answer; None takes a header away."""

@@ -137,3 +137,113 @@ def test_a_run_without_frames_shows_its_latest_restart_file(serve, root):
         server.post("stop", id=run)
         page.wait("document.querySelector('.state.stopped')")
         assert page.problems() == []
+
+
+def test_maps_of_fields(serve, write_frames):
+    """Fields of coarse graining: images and HDF5 files as maps of space, a table of one direction as a map over time."""
+    write_frames("fields", "one")
+    server = serve()
+    with browser.page() as page:
+        page.open(server, "run=one%2Frun")
+        page.wait("pendular.maps?.size === 2 && [...pendular.maps.values()].every((map) => map.loads > 0)")
+        page.wait("document.querySelectorAll('canvas.map').length === 3")
+        page.js("window.plane = pendular.maps.get('run-coarse.pvd'); window.colour = (column, row) => [...plane.map.canvas.getContext('2d').getImageData(column, 9 - row, 1, 1).data]")
+        assert page.js("return plane.shown") == 1  # the last of both
+        page.js("const s = plane.fieldSelect; s.value = 'density_kg_per_m3'; s.dispatchEvent(new Event('change'))")
+        page.wait("plane.map.content.unit === 'kg/m^3'")
+        # The grain is at x = 11 mm, z = 7 mm: there the map has its last colour, and far away its first one.
+        assert page.js("return colour(5, 3)") == [0xFD, 0xE7, 0x25, 255]
+        assert page.js("return colour(0, 9)") == [0x44, 0x01, 0x54, 255]
+        assert page.js("return plane.map.legend.unit.textContent") == "kg/m^3"
+        assert [float(page.js(f"return plane.map.{end}.textContent")) for end in ("left", "right", "bottom", "top")] == pytest.approx([0, 0.02, 0, 0.02], abs=1e-12)
+        box = page.js("const {width, height} = plane.map.canvas.getBoundingClientRect(); return [width, height]")
+        assert box[0] == pytest.approx(box[1], rel=0.02)  # 20 mm x 20 mm
+        # The value is said, by the pointer and by the keyboard; where there is no grain there is no colour.
+        page.js("plane.map.say(5, 3)")
+        assert page.js("return plane.map.said.textContent").startswith("x (m) 0.011, z (m) 0.007: ")
+        plane = page.js("return plane.map.canvas")
+        plane.send_keys(Keys.ARROW_RIGHT)
+        assert page.js("return plane.map.said.textContent").startswith("x (m) 0.013, z (m) 0.007: ")
+        page.js("const s = plane.fieldSelect; s.value = 'velocity_m_per_s.z'; s.dispatchEvent(new Event('change'))")
+        page.wait("plane.map.content.unit === 'm/s'")
+        assert page.js("return colour(0, 9)[3]") == 0 and page.js("return colour(5, 3)[3]") == 255
+        # The time before, when the grain was at rest; a fixed range.
+        page.js("const t = plane.timeSlider; t.value = 0; t.dispatchEvent(new Event('input'))")
+        page.wait("plane.when.textContent.startsWith('0 s, 1 of 2') && plane.map.content.values.some((v) => v === 0)")
+        page.js("const [a, b] = plane.map.range.ends; a.value = '-1'; b.value = '1'; b.dispatchEvent(new Event('change'))")
+        assert page.js("return [plane.map.legend.low.textContent, plane.map.legend.high.textContent]") == ["-1", "1"]
+        assert page.js("return colour(5, 3)")[:3] == pytest.approx([0x23, 0x8A, 0x8D], abs=6)  # the middle of the colours
+        # Of three directions a slice.
+        page.js("window.space = pendular.maps.get('run-space.h5'); const s = space.normalSelect; s.value = 2; s.dispatchEvent(new Event('change'))")
+        page.wait("space.map.content.up.label === 'y (m)'")
+        page.js("const s = space.sliceSlider; s.value = 3; s.dispatchEvent(new Event('input'))")
+        page.wait("space.map.content.values.reduce((best, v, k, all) => (all[best] >= v ? best : k), 0) === 45")
+        # Of one direction: over time. The grain is at z = 7 mm.
+        profile = "pendular.charts.charts.get('run-line.csv').map"
+        page.js(f"const p = {profile}; p.select.value = [...p.select.options].find(({{text}}) => text === 'density_kg_per_m3').value; p.draw()")
+        values = page.js(f"return [...{profile}.map.content.values]")
+        assert len(values) == 20 and values.index(max(values)) in (6, 7)
+        if AXE.is_file():
+            check_with_axe(page)
+        assert page.problems() == []
+
+
+def test_on_a_telephone(serve, write_frames):
+    write_frames("picture", "wet")
+    write_frames("fields", "one")
+    server = serve()
+    with browser.page() as page:
+        page.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
+        page.driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": True, "maxTouchPoints": 2})
+        page.open(server)
+        page.wait("document.querySelectorAll('.runs li').length === 2")
+        for hash_, ready in (("runs", "true"), ("start", "document.querySelector('#driver option')"), ("run=one%2Frun", "pendular.maps?.size === 2"),
+                             ("run=wet%2Frun", "pendular.viewer?.loads > 0")):
+            page.go(server, hash_)
+            page.wait(ready)
+            assert page.js("return [innerWidth, document.documentElement.scrollWidth <= 390]") == [390, True], hash_
+        place = page.js("const {x, y, width, height} = document.querySelector('canvas.picture').getBoundingClientRect(); return [x + width / 2, y + height / 2]")
+        touch = lambda kind, *apart: page.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [
+            {"x": place[0] + side * half, "y": place[1], "id": k} for half in apart for k, side in enumerate((-1, 1))]})
+        distance, turn = page.js("const {distance, turn} = pendular.viewer.scene.camera; return [distance, turn]")
+        touch("touchStart", 20), touch("touchMove", 60), touch("touchEnd")
+        assert page.js("return pendular.viewer.scene.camera.distance") < 0.6 * distance  # two fingers come near
+        page.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [{"x": place[0], "y": place[1]}]})
+        page.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": [{"x": place[0] + 50, "y": place[1]}]})
+        touch("touchEnd")
+        assert page.js("return pendular.viewer.scene.camera.turn") == pytest.approx(turn - 0.3, abs=0.05)
+
+
+def test_a_film_a_picture_and_drawing_while_the_camera_moves(serve, write_frames):
+    write_frames("lattice", "wet", 500, 400, 5)
+    server = serve()
+    with browser.page() as page:
+        page.open(server, "run=wet%2Frun")
+        page.wait("pendular.viewer?.loads > 0")
+        page.js("window.saved = []; URL.createObjectURL = ((make) => (blob) => { saved.push(blob); return make.call(URL, blob); })(URL.createObjectURL)")
+        page.js("pendular.viewer.saveFilm()")
+        page.wait("saved.length === 1")
+        film = page.driver.execute_async_script(
+            "const done = arguments[0], video = document.createElement('video'); video.onloadeddata = () => done([saved[0].type, saved[0].size, video.videoWidth, video.videoHeight]);"
+            "video.onerror = () => done(video.error.message); video.src = URL.createObjectURL(saved[0])")
+        canvas = page.js("const {width, height} = pendular.viewer.canvas; return [width, height]")
+        assert film[0].startswith("video/") and film[1] > 5000 and film[2:] == canvas, film
+        page.driver.find_element(By.CSS_SELECTOR, "canvas.picture").send_keys("s")
+        page.wait("saved.at(-1).type === 'image/png'")
+        # What takes long to draw is drawn coarsely while the camera moves, and whole when it rests.
+        page.js("pendular.viewer.drawing = 1000")
+        page.driver.find_element(By.CSS_SELECTOR, "canvas.picture").send_keys(Keys.ARROW_LEFT)
+        page.wait(f"pendular.viewer.canvas.width === {canvas[0] // 2} || pendular.viewer.canvas.width === {(canvas[0] + 1) // 2}", 5)
+        page.wait(f"pendular.viewer.canvas.width === {canvas[0]}", 5)
+        assert page.problems() == []
+
+
+def test_hdf5_frames_are_shown(serve, write_frames):
+    write_frames("hdf5", "wet")
+    server = serve()
+    with browser.page(dark=True) as page:
+        page.open(server, "run=wet%2Frun")
+        page.wait("pendular.viewer?.loads > 0 && pendular.viewer.times.length === 2")
+        assert page.js("return pendular.viewer.shown") == 1 and page.js("return pendular.viewer.scene.frame.grains.length") == 4 * 13
+        assert page.js("return pendular.viewer.when.textContent") == "0.5 s, 2 of 2"
+        assert page.problems() == []

@@ -36,14 +36,14 @@ def scene(serve, write_frames):
         page.open(server, "run=wet%2Frun")
         page.wait("pendular.viewer && pendular.viewer.loads")
         view = lambda text, *arguments: page.js(f"const v = pendular.viewer, s = v.scene; {text}", *arguments)
-        view("s.camera.from(0, 0); s.look.walls = false; s.render(true)")
+        view("s.camera.from(0, 0); s.look.walls = false; s.render({finish: true})")
         view.page, view.server = page, server
         yield view
         assert page.problems() == []
 
 
 def colour_at(scene, point):
-    return scene("s.render(true); return s.pixel(...arguments[0])", along(scene, point))
+    return scene("s.render({finish: true}); return s.pixel(...arguments[0])", along(scene, point))
 
 
 def test_the_picture(scene):
@@ -79,6 +79,15 @@ def test_the_picture(scene):
     scene("s.look.bridges = false")
     assert near(colour_at(scene, middle), background)
 
+    # A droplet is a small blue ball, and goes with its box.
+    drop = [1.5e-3, -2.9e-4, 1.5e-3]
+    blue = colour_at(scene, drop)
+    assert near(blue, [38, 115, 217], 4), blue
+    assert near(colour_at(scene, [1.5e-3 + 3.3e-4, 0, 1.5e-3]), background)
+    scene("s.look.droplets = false")
+    assert near(colour_at(scene, drop), background)
+    scene("s.look.droplets = true")
+
     # A clump has the outline of its two spheres, without a gap between them.
     for z in (0, 6e-4, 1.2e-3):
         assert not near(colour_at(scene, [6e-3, 0, z]), background, 10)
@@ -111,3 +120,12 @@ def test_the_picture(scene):
     scene.page.wait("pendular.viewer.picked.innerText.includes('Grain 108')")
     text = scene.page.js("return pendular.viewer.picked.innerText")
     assert "velocity (m/s)\t0, 0, 8" in text and "radius (m)\t0.001" in text
+
+    # And a contact, where contacts are shown: it has the force of its file.
+    scene("s.look.contacts = true; s.look.grains = false; v.loads = 0; v.ask(0)")
+    scene.page.wait("pendular.viewer.loads > 0")
+    x, y = along(scene, [-1.5e-3, 0, -3e-3])
+    assert scene("s.render({finish: true}); return s.pick(...arguments[0])", [x, y]) == {"kind": "contact", "row": 0}
+    scene("v.showPicked({kind: 'contact', row: 0})")
+    scene.page.wait("pendular.viewer.picked.innerText.includes('Contact')")
+    assert "force (N)\t1e-4, 0, 0" in scene.page.js("return pendular.viewer.picked.innerText")

@@ -2,11 +2,15 @@
 bodies, heads and connections without end."""
 import json
 import os
+import shutil
+import signal
 import socket
+import subprocess
 import time
+import urllib.parse
 
 import pytest
-from conftest import driver_of
+from conftest import Server, driver_of
 
 START = json.dumps({"driver": "RotatingDrum", "name": "", "options": {}}).encode()
 
@@ -30,8 +34,42 @@ def test_the_token_becomes_a_cookie_that_scripts_do_not_see(served):
     assert headers["Set-Cookie"].startswith(served.cookie + ";")
     assert "HttpOnly" in headers["Set-Cookie"] and "SameSite=Strict" in headers["Set-Cookie"]
     assert served.ask("/")[0] == 200
+    for run, word in (("wet/run", "wet%2Frun"), ("\"><script>&", "%22%3E%3Cscript%3E%26"), ("", "")):
+        content = served.ask(f"/?token={served.token}&run={urllib.parse.quote(run, safe='')}", Cookie=None)[1].decode()
+        assert f'content="0; url=.{"#run=" if run else ""}{word}"' in content and "<script>" not in content
     policy = served.ask("/")[2]["Content-Security-Policy"]
     assert "default-src 'none'" in policy and "frame-ancestors 'none'" in policy and "unsafe" not in policy
+
+
+def test_in_a_package_it_finds_page_and_drivers(root, tmp_path):
+    """Programs of a package are in one folder, lib/.../pendular/LEVEL; the page and the names of the drivers in share/pendular."""
+    own, shared = tmp_path / "usr/lib/x/pendular/level", tmp_path / "usr/share/pendular"
+    own.mkdir(parents=True)
+    (shared / "ViewPage").mkdir(parents=True)
+    for name in ("index.html", "main.js"):
+        (shared / "ViewPage" / name).write_text(f"of the package: {name}")
+    shutil.copy(os.environ["PENDULAR_VIEW"], own / "view")
+    for name in ("Drum", "NoDriver", "NotListed"):
+        driver_of(tmp_path / "made", name, ("", "echo done")).rename(own / name)
+    (shared / "drivers.txt").write_text("Drum\nGone\n")
+    server = Server(root, page=None, program=own / "view")
+    assert server.ask("/")[1] == b"of the package: index.html"
+    assert [driver["driver"] for driver in server.get("drivers")] == ["Drum"]
+    refused(server, "/api/start", "POST", json.dumps({"driver": "NotListed"}).encode())
+    run = server.post("start", driver="Drum", name="", options={})["id"]
+    server.wait_for(run, "ended")
+    server.end()
+
+
+def test_it_ends_with_its_input(root):
+    for ends in (lambda server: server.process.stdin.close(), lambda server: server.process.send_signal(signal.SIGTERM)):
+        server = Server(root, "--end-with-input", stdin=subprocess.PIPE)
+        server.process.stdin.write("anything\n")
+        server.process.stdin.flush()
+        time.sleep(0.5)
+        assert server.ask("/")[0] == 200
+        ends(server)
+        assert server.process.wait(20) == 0
 
 
 def test_it_is_known_by_the_names_that_it_was_given(serve):

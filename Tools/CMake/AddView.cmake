@@ -13,6 +13,14 @@ if(TARGET CLI11::CLI11 AND NOT isQuickSanitizer)
     add_program(view Tools "${PROJECT_SOURCE_DIR}/Tools/View/view.cpp" "${PROJECT_SOURCE_DIR}/Tools/View/Server.cpp")
     target_include_directories(view PRIVATE "${MICROHTTPD_INCLUDE_FOLDER}")
     target_link_libraries(view PRIVATE PendularView "${MICROHTTPD_LIBRARY}")
+    # A package has drivers and other programs in one folder: which are which.
+    set(driverNames ${driverFolders})
+    list(TRANSFORM driverNames REPLACE ".*/" "")
+    list(JOIN driverNames "\n" driverList)
+    file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/Generated/drivers.txt" CONTENT "@driverList@\n" @ONLY)
+    if(NOT PENDULAR_LEVEL_OF)
+        install(FILES "${PROJECT_BINARY_DIR}/Generated/drivers.txt" DESTINATION share/pendular COMPONENT programs EXCLUDE_FROM_ALL)
+    endif()
 endif()
 
 # Where npm is found. `npm ci` takes exactly what package-lock.json names, with its checksums.
@@ -39,4 +47,7 @@ if(NPM)
         DEPENDS "${viewPageWork}/installed" ${viewPageFiles} "${viewPageSource}/index.html" "${viewPageSource}/icon.svg"
         COMMENT "Building the page of view" VERBATIM)
     add_custom_target(view-page DEPENDS "${viewPage}/main.js")
+    if(NOT PENDULAR_LEVEL_OF)
+        install(DIRECTORY "${viewPage}" DESTINATION share/pendular COMPONENT programs OPTIONAL EXCLUDE_FROM_ALL)
+    endif()
 endif()

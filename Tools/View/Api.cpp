@@ -11,6 +11,7 @@
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Files/FileContent.h"
 #include "Kernel/Files/TextFile.h"
+#include "Tools/View/FieldMaps.h"
 #include "Tools/View/FramePack.h"
 #include "Tools/View/RunState.h"
 
@@ -117,6 +118,7 @@ Reply Api::ofRun(const Request& request, const RunFiles& run) {
         return {200, "application/json",
                 tableRows(run, request.asked("name"), from.empty() ? 0 : wholeOf(request, "from"))};
     }
+    if (request.path == "/api/map") return map(request, run);
     if (request.path == "/api/frame" || request.path == "/api/row") return frame(request, run);
     return sentence(404, "There is nothing here.");
 }
@@ -128,11 +130,25 @@ Reply Api::frame(const Request& request, const RunFiles& run) {
     const std::scoped_lock one(oneFrame);
     if (request.path == "/api/row")
         return {200, "application/json",
-                describeRow(frames[number].file, request.asked("of") == "contacts", wholeOf(request, "row"))};
-    const FrameWish wish{request.asked("field"), request.asked("contacts") == "1",
-                         request.asked("bridges") != "0", request.asked("orRadius") == "1",
-                         originOf(request.asked("origin"))};
-    return {200, "application/octet-stream", packFrame(frames[number].file, wish)};
+                describeRow(frames[number], request.asked("of") == "contacts", wholeOf(request, "row"))};
+    FrameWish wish;
+    wish.field = request.asked("field"), wish.orRadius = request.asked("orRadius") == "1";
+    wish.contacts = request.asked("contacts") == "1", wish.bridges = request.asked("bridges") != "0";
+    wish.droplets = request.asked("droplets") != "0", wish.origin = originOf(request.asked("origin"));
+    return {200, "application/octet-stream", packFrame(frames[number], wish)};
+}
+
+Reply Api::map(const Request& request, const RunFiles& run) {
+    const std::vector<FieldSeries> all = fieldSeriesOf(run);
+    const auto found = std::ranges::find(all, request.asked("name"), &FieldSeries::name);
+    const std::size_t number = wholeOf(request, "frame");
+    if (found == all.end() || number >= found->entries.size()) return sentence(404, "There is no such map.");
+    const auto optional = [&](const char* word) {
+        return request.asked(word).empty() ? std::optional<std::size_t>() : wholeOf(request, word);
+    };
+    const std::scoped_lock one(oneFrame);
+    return {200, "application/octet-stream",
+            packMap(found->entries[number], {request.asked("field"), optional("normal"), optional("slice")})};
 }
 
 void Api::addQueue(Json& overview, const RunFiles& run) {

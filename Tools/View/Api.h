@@ -15,8 +15,9 @@ namespace pendular::view {
 ///
 /// GET   api/runs                        overviews (RunState.h), newest first
 ///       api/run?id=                     details
-///       api/frame?id=&frame=&field=&orRadius=&bridges=&contacts=&origin=x,y,z
+///       api/frame?id=&frame=&field=&orRadius=&bridges=&contacts=&droplets=&origin=x,y,z
 ///                                       a frame (FramePack.h)
+///       api/map?id=&name=&frame=&field=&normal=&slice=                 a field (FieldMaps.h)
 ///       api/row?id=&frame=&of=grains|contacts&row=                     fields of a grain or a contact
 ///       api/table?id=&name=&from=       rows of a table
 ///       api/drivers                     descriptions of the drivers' options
@@ -25,15 +26,16 @@ class Api {
 public:
     struct Places {
         std::filesystem::path page;     // folder of the built page
-        std::filesystem::path drivers;  // of programs
-        std::string frameAncestors;     // of the content policy: who may show the page in a frame
+        std::filesystem::path drivers;  // of programs: see DriverOptions
+        std::vector<std::string> driverNames;
+        std::string frameAncestors;  // of the content policy: who may show the page in a frame
     };
 
     Api(Gate guard, const RunFolder& runFolder, Places where, std::size_t runsAtOnce)
         : gate(std::move(guard)),
           runs(runFolder),
           places(std::move(where)),
-          drivers(places.drivers),
+          drivers(places.drivers, places.driverNames),
           queue(runs, drivers, runsAtOnce) {}
 
     /// Never throws but for want of memory. May be called by several threads.
@@ -45,6 +47,7 @@ private:
     [[nodiscard]] Reply change(const Request& request);
     [[nodiscard]] Reply ofRun(const Request& request, const RunFiles& run);
     [[nodiscard]] Reply frame(const Request& request, const RunFiles& run);
+    [[nodiscard]] Reply map(const Request& request, const RunFiles& run);
     [[nodiscard]] Reply list();
     [[nodiscard]] Reply pageFile(const std::string& path) const;
     void addQueue(DriverOptions::Json& overview, const RunFiles& run);

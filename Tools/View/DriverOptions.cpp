@@ -88,20 +88,27 @@ std::vector<std::string> wordsOf(const Json& option, const std::string& value) {
     return words;
 }
 
+fs::path DriverOptions::pathOf(const std::string& driver) const {
+    return inFolder.empty() ? folder / driver / driver : folder / driver;
+}
+
 std::vector<std::string> DriverOptions::names() const {
-    std::vector<std::string> found;
+    std::vector<std::string> found = inFolder;
     std::error_code problem;
-    for (const auto& entry : fs::directory_iterator(folder, problem)) {
-        const std::string name = entry.path().filename().string();
-        if (isName(name) && access((entry.path() / name).c_str(), X_OK) == 0) found.push_back(name);
-    }
+    if (inFolder.empty())
+        for (const auto& entry : fs::directory_iterator(folder, problem))
+            found.push_back(entry.path().filename().string());
+    std::erase_if(found, [&](const std::string& name) {
+        return !isName(name) || access(pathOf(name).c_str(), X_OK) != 0;
+    });
     std::sort(found.begin(), found.end());
     return found;
 }
 
 fs::path DriverOptions::program(const std::string& driver) const {
-    const fs::path path = folder / driver / driver;
-    if (!isName(driver) || !fs::is_regular_file(path) || access(path.c_str(), X_OK) != 0)
+    const fs::path path = pathOf(driver);
+    const bool isDriver = inFolder.empty() || std::ranges::count(inFolder, driver) > 0;
+    if (!isName(driver) || !isDriver || !fs::is_regular_file(path) || access(path.c_str(), X_OK) != 0)
         throw InputError(fmt::format("view: there is no driver '{}'.", shown(driver)));
     return path;
 }

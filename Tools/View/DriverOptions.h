@@ -15,8 +15,11 @@ class DriverOptions {
 public:
     using Json = nlohmann::ordered_json;
 
-    /// @param drivers folder with NAME/NAME, or with the programs themselves
-    explicit DriverOptions(std::filesystem::path drivers) : folder(std::move(drivers)) {}
+    /// @param drivers folder with NAME/NAME, as a build has it
+    /// @param listed names of programs in the folder itself, as a package has it; empty: it is that of a
+    /// build
+    explicit DriverOptions(std::filesystem::path drivers, std::vector<std::string> listed = {})
+        : folder(std::move(drivers)), inFolder(std::move(listed)) {}
 
     /// The descriptions of all drivers, sorted by name.
     [[nodiscard]] Json all();
@@ -30,6 +33,7 @@ public:
 private:
     [[nodiscard]] const Json& describe(const std::string& driver);
     [[nodiscard]] std::vector<std::string> names() const;
+    [[nodiscard]] std::filesystem::path pathOf(const std::string& driver) const;
 
     struct Known {
         std::filesystem::file_time_type written;
@@ -37,6 +41,7 @@ private:
         Json description;  // null: it has not said its options; it may yet
     };
     std::filesystem::path folder;
+    std::vector<std::string> inFolder;
     std::mutex mutex;
     std::map<std::string, Known> known;
 };

@@ -2,48 +2,24 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
-#include "Kernel/Output/FieldName.h"
+#include "Kernel/Output/Hdf5Frame.h"
+#include "Kernel/Output/Hdf5Series.h"
 #include "Kernel/Output/ParaViewSeries.h"
 #include "Tools/Snapshot/Compose.h"
+#include "Tools/View/Columns.h"
 
 namespace pendular::view {
-
-static_assert(std::endian::native == std::endian::little);
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Columns one after another, and where each of them begins.
-class Columns {
-public:
-    void add(const std::string& name, const std::vector<float>& numbers) {
-        list.push_back({{"name", name}, {"begin", bytes.size()}, {"count", numbers.size()}});
-        bytes.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(float));
-    }
-    std::string behind(Json head) && {
-        head["columns"] = std::move(list);
-        std::string text = head.dump(-1, ' ', false, Json::error_handler_t::replace);
-        text.resize((text.size() + 3) / 4 * 4, ' ');
-        const auto length = static_cast<std::uint32_t>(text.size());
-        std::string all(reinterpret_cast<const char*>(&length), sizeof length);
-        all.reserve(sizeof length + text.size() + bytes.size());
-        return all.append(text).append(bytes);
-    }
-
-private:
-    Json list = Json::array();
-    std::string bytes;
-};
 
 void put(std::vector<float>& column, const Vector<double>& p) {
     for (const double x : {p.x, p.y, p.z}) column.push_back(static_cast<float>(x));
@@ -103,12 +79,11 @@ Json describeFields(const PolyData& grains) {
             const double value = part.at(k);
             lowest = std::min(lowest, value), highest = std::max(highest, value);
         }
-        fields.push_back({{"name", field.name},
-                          {"unit", splitFieldName(field.name).unit},
-                          {"components", field.components},
-                          {"lowest", lowest},
-                          {"highest", highest},
-                          {"whole", std::holds_alternative<std::vector<std::int32_t>>(field.numbers)}});
+        Json told = fieldName(field.name);
+        told["components"] = field.components;
+        told["lowest"] = lowest, told["highest"] = highest;
+        told["whole"] = std::holds_alternative<std::vector<std::int32_t>>(field.numbers);
+        fields.push_back(std::move(told));
     }
     return fields;
 }
@@ -232,39 +207,78 @@ std::vector<float> valueColumn(const PolyData& grains, const std::string& wanted
     return column;
 }
 
+std::vector<float> dropletColumn(const PolyData& droplets, const Vector<double>& origin) {
+    std::vector<float> column;
+    const PolyDataField* const radii = droplets.pointField("radius_m");
+    for (std::size_t k = 0; radii && k < droplets.points.size(); ++k) {
+        if (!isFinite(droplets.points[k])) continue;
+        put(column, droplets.points[k] - origin);
+        column.push_back(static_cast<float>(radii->at(k)));
+    }
+    return column;
+}
+
 /// The part of a frame that is in a file of its own, unless that is a link.
 PolyData readBeside(const std::filesystem::path& particles, std::string_view kind) {
     const std::filesystem::path file = snapshot::fileBeside(particles, kind);
     return isOwnFile(file) ? readPolyData(file) : PolyData{};
 }
 
+/// All that is drawn of a frame.
+struct Content : snapshot::Frame {
+    PolyData shapes, droplets;
+};
+
+Content readHdf5(const std::filesystem::path& file) {
+    SceneFrame frame = readHdf5Frame(file);
+    const auto given = [](std::optional<PolyData>& part) { return std::move(part).value_or(PolyData{}); };
+    return {{std::move(frame.grains), given(frame.contacts), given(frame.walls)},
+            given(frame.shapes),
+            given(frame.droplets)};
+}
+
+Content readParaView(const std::filesystem::path& file, const FrameWish& wish) {
+    Content content;
+    content.grains = readPolyData(file);
+    if (wish.surfaces) content.walls = readBeside(file, "walls"), content.shapes = readBeside(file, "shapes");
+    if (wish.bridges || wish.contacts) content.contacts = readBeside(file, "contacts");
+    if (wish.droplets) content.droplets = readBeside(file, "droplets");
+    return content;
+}
+
+/// Throws InputError if it cannot be read, or if it is one that no run writes.
+Content read(const FrameEntry& frame, const FrameWish& wish) {
+    if (frame.kind == FrameEntry::Kind::Restart) return {snapshot::readRestartState(frame.file), {}, {}};
+    Content content =
+        frame.kind == FrameEntry::Kind::Hdf5 ? readHdf5(frame.file) : readParaView(frame.file, wish);
+    if (std::isfinite(frame.time)) content.grains.time = frame.time;
+    snapshot::checkFrame(content, frame.file);
+    return content;
+}
+
 }  // namespace
 
 std::vector<FrameEntry> framesOf(const RunFiles& run) {
     std::vector<FrameEntry> frames;
-    const std::filesystem::path series = run.file(".pvd"), restart = run.file("-restart.h5");
+    const auto add = [&](double time, const std::filesystem::path& file, FrameEntry::Kind kind) {
+        if (file.parent_path() == run.folder && isOwnFile(file)) frames.push_back({time, file, kind});
+    };
+    const std::filesystem::path series = run.file(".pvd"), list = run.file(hdf5Frames),
+                                restart = run.file("-restart.h5");
     if (isOwnFile(series)) {
         for (const ParaViewEntry& entry : readParaViewSeries(series))
-            if (entry.kind == "particles" && entry.file.parent_path() == run.folder && isOwnFile(entry.file))
-                frames.push_back({entry.time, entry.file});
-    } else if (isOwnFile(restart)) {
-        frames.push_back({std::numeric_limits<double>::quiet_NaN(), restart});
+            if (entry.kind == "particles") add(entry.time, entry.file, FrameEntry::Kind::ParaView);
+    } else if (isOwnFile(list)) {
+        for (const Hdf5Entry& entry : readHdf5Series(list))
+            add(entry.time, entry.file, FrameEntry::Kind::Hdf5);
+    } else {
+        add(std::numeric_limits<double>::quiet_NaN(), restart, FrameEntry::Kind::Restart);
     }
     return frames;
 }
 
-std::string packFrame(const std::filesystem::path& file, const FrameWish& wish) {
-    snapshot::Frame frame;
-    PolyData shapes;
-    if (file.extension() == ".h5") {
-        frame = snapshot::readRestartState(file);
-    } else {
-        frame.grains = readPolyData(file);
-        frame.walls = readBeside(file, "walls");
-        shapes = readBeside(file, "shapes");
-        if (wish.bridges || wish.contacts) frame.contacts = readBeside(file, "contacts");
-        snapshot::checkFrame(frame, file);
-    }
+std::string packFrame(const FrameEntry& entry, const FrameWish& wish) {
+    Content frame = read(entry, wish);
     const Limits limits(frame.grains.points);
     const Vector<double> origin = wish.origin.value_or(0.5 * (limits.low + limits.high));
     Json head{{"time", frame.grains.time},
@@ -278,30 +292,35 @@ std::string packFrame(const std::filesystem::path& file, const FrameWish& wish) 
     const auto rows = rowsByIdentity(frame.grains);
     std::vector<bool> isShape(frame.grains.points.size());
     Columns columns;
-    columns.add("shapes", shapeColumn(shapes, rows, origin, isShape));
+    columns.add("shapes", shapeColumn(frame.shapes, rows, origin, isShape));
     columns.add("grains", grainColumn(frame.grains, origin, isShape));
     columns.add("value", valueColumn(frame.grains, field));
     columns.add("walls", wallColumn(frame.walls, origin));
     if (wish.bridges) columns.add("bridges", bridgeColumn(frame, rows, origin));
     if (wish.contacts) columns.add("contacts", contactColumn(frame.contacts, origin));
-    frame = {}, shapes = {};  // before the columns are copied
+    if (wish.droplets) columns.add("droplets", dropletColumn(frame.droplets, origin));
+    frame = {};  // before the columns are copied
     return std::move(columns).behind(std::move(head));
 }
 
-std::string describeRow(const std::filesystem::path& file, bool ofContacts, std::size_t row) {
-    PolyData data;
-    if (file.extension() == ".h5") data = snapshot::readRestartState(file).grains;
-    else data = ofContacts ? readBeside(file, "contacts") : readPolyData(file);
+std::string describeRow(const FrameEntry& frame, bool ofContacts, std::size_t row) {
+    FrameWish wish;
+    wish.contacts = wish.bridges = ofContacts, wish.droplets = wish.surfaces = false;
+    const Content content = read(frame, wish);
+    const PolyData& data = ofContacts ? content.contacts : content.grains;
     const std::vector<PolyDataField>& fields = ofContacts ? data.cellFields : data.pointFields;
     Json all = Json::array();
-    if (!ofContacts && row < data.points.size())
-        all.push_back({{"name", "position_m"}, {"unit", "m"}, {"value", list(data.points[row])}});
+    const auto add = [&](const std::string& name, Json value) {
+        all.push_back(fieldName(name));
+        all.back()["value"] = std::move(value);
+    };
+    if (!ofContacts && row < data.points.size()) add("position_m", list(data.points[row]));
     for (const PolyDataField& field : fields) {
         if (row >= field.size() / field.components) throw InputError("view: the frame has no such row.");
         Json value = Json::array();
         for (std::size_t c = 0; c < field.components; ++c)
             value.push_back(field.at(row * field.components + c));
-        all.push_back({{"name", field.name}, {"unit", splitFieldName(field.name).unit}, {"value", value}});
+        add(field.name, std::move(value));
     }
     return Json{{"fields", all}}.dump();
 }

@@ -13,38 +13,41 @@ namespace pendular::view {
 
 /// A frame of a run that can be shown.
 struct FrameEntry {
-    double time;  // s
+    enum class Kind { ParaView, Hdf5, Restart };
+
+    double time;  // s; NaN: it is in the file
     std::filesystem::path file;
+    Kind kind = Kind::ParaView;
 };
 
-/// Those of the run's series for ParaView, by time; where it has none, the state of its restart file.
+/// Those of the run's series for ParaView, by time; where it has none, those of its list of HDF5 frames;
+/// where it has neither, the state of its restart file.
 std::vector<FrameEntry> framesOf(const RunFiles& run);
 
 /// What of a frame is wanted.
 struct FrameWish {
     std::string field;  // that colours the grains; "velocity_m_per_s.z" is a part
     bool contacts = false, bridges = true;
-    bool orRadius = false;                 // by the radius where there is no such field
-    std::optional<Vector<double>> origin;  // m; nothing: the middle of this frame's grains
+    bool droplets = true, surfaces = true;  // surfaces: of walls and of grains that are no spheres
+    bool orRadius = false;                  // by the radius where there is no such field
+    std::optional<Vector<double>> origin;   // m; nothing: the middle of this frame's grains
 };
 
-/// A frame as the page takes it: the length of a text (4 bytes, little-endian), the text, JSON, filled up
-/// with blanks to a multiple of four, and behind it columns of 32 bits. The text tells time, origin, limits,
-/// fields, and for each column its name, where it begins (in bytes, behind the text) and how many numbers it
-/// has:
+/// A frame as the page takes it (Columns.h). The text tells time, origin, limits and fields. The columns:
 ///
 /// grains     x, y, z (m, from the origin), radius (m; negative: drawn by its shape) of each grain
 /// value      of the field of the wish
 /// bridges    x, y, z, radius, x, y, z, 0: cylinders of the bridges' volumes
 /// contacts   x, y, z, force (N), x, y, z, 0, in the order of the file
 /// walls      x, y, z: triangles
+/// droplets   x, y, z, radius
 /// shapes     x, y, z, row of the grain: triangles of grains that are no spheres
 ///
 /// Throws InputError if the frame cannot be read or has no such field.
-std::string packFrame(const std::filesystem::path& file, const FrameWish& wish);
+std::string packFrame(const FrameEntry& frame, const FrameWish& wish);
 
-/// All fields of a grain, or of a contact, as JSON: {"fields": [{"name", "value"}]}.
-/// @param row of the frame's grains or contacts
-std::string describeRow(const std::filesystem::path& file, bool ofContacts, std::size_t row);
+/// All fields of a grain, or of a contact, as JSON: {"fields": [{"name", "quantity", "unit", "value"}]}.
+/// @param row of its grains or contacts
+std::string describeRow(const FrameEntry& frame, bool ofContacts, std::size_t row);
 
 }  // namespace pendular::view

@@ -36,11 +36,25 @@ std::string lowered(std::string name) {
     return name;
 }
 
-/// Leads on to the page. A redirection would still count as asked for by the page that led here, a file or a
-/// message, and the browser would keep back a cookie that is SameSite=Strict.
-constexpr const char* leadsOn =
-    "<!doctype html><html lang=\"en\"><meta http-equiv=\"refresh\" content=\"0; url=.\">"
-    "<link rel=\"icon\" href=\"data:,\"><title>Pendular</title><a href=\".\">To the runs</a></html>\n";
+/// Letters and digits as they are, all else by its code, so that it says nothing in a page.
+std::string encoded(const std::string& text) {
+    std::string result;
+    for (const unsigned char c : text) {
+        const bool isPlain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+        result += isPlain ? std::string(1, static_cast<char>(c)) : fmt::format("%{:02X}", c);
+    }
+    return result;
+}
+
+/// Leads on to the page, of a run if one is named. A redirection would still count as asked for by the page
+/// that led here, a file or a message, and the browser would keep back a cookie that is SameSite=Strict.
+std::string leadsOn(const std::string& run) {
+    const std::string to = run.empty() ? "." : ".#run=" + encoded(run);
+    return fmt::format(
+        "<!doctype html><html lang=\"en\"><meta http-equiv=\"refresh\" content=\"0; url={0}\">"
+        "<link rel=\"icon\" href=\"data:,\"><title>Pendular</title><a href=\"{0}\">To the runs</a></html>\n",
+        to);
+}
 
 }  // namespace
 
@@ -73,7 +87,7 @@ std::optional<Reply> Gate::answer(const Request& request) const {
         return Reply{
             200,
             "text/html; charset=utf-8",
-            leadsOn,
+            leadsOn(request.asked("run")),
             {{"Set-Cookie", fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/", cookie, token)}}};
     if (!isSame(request.cookie, token))
         return sentence(403, "Open the address that the program view has printed; it has the token.");

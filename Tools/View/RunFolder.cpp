@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <fstream>
@@ -18,7 +19,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 4> endings{"-summary.csv", ".pvd", "-restart.h5", ".pendular-lock"};
+constexpr std::array<std::string_view, 5> endings{"-summary.csv", ".pvd", "-restart.h5", ".pendular-lock",
+                                                  hdf5Frames};
 constexpr std::size_t mostEntries = 200000;  // that a listing looks at
 
 /// What a file of a run says is the name of the run; empty for other files.
@@ -59,6 +61,13 @@ bool isOwnFile(const fs::path& path) {
     return fs::symlink_status(path, ignored).type() == fs::file_type::regular;
 }
 
+bool isOfFields(const fs::path& series) {
+    std::string begin(1000, '\0');
+    std::ifstream(series).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    const std::size_t first = begin.find("<DataSet "), end = std::min(begin.find('>', first), begin.size());
+    return first < end && begin.substr(first, end - first).find(" name=\"fields\"") != begin.npos;
+}
+
 RunFolder::RunFolder(const fs::path& root) {
     std::error_code problem;
     top = fs::canonical(root, problem);
@@ -80,6 +89,7 @@ std::vector<RunFiles> RunFolder::list() const {
         }
         const std::string run = runOf(name);
         if (run.empty() || !isOwnFile(entry->path())) continue;
+        if (name.ends_with(".pvd") && isOfFields(entry->path())) continue;
         const fs::path folder = entry->path().parent_path();
         const std::string id = (folder.lexically_relative(top) / run).lexically_normal().string();
         found.try_emplace(id, RunFiles{id, folder, run});

@@ -12,6 +12,8 @@ namespace pendular::view {
 
 /// In the folder of a run that was started from the page: what with.
 inline constexpr std::string_view startFile = "view-start.json";
+/// How the name of a list of HDF5 frames ends, behind that of its run.
+inline constexpr std::string_view hdf5Frames = "-fields.h5";
 
 /// The files of a run: those whose names begin with `name` (its setName()), in a folder beneath the
 /// root.
@@ -51,6 +53,8 @@ private:
 
 /// Whether the path is a regular file, and no link.
 bool isOwnFile(const std::filesystem::path& path);
+/// Whether a series for ParaView is one of fields of coarse graining, which is no run of its own.
+bool isOfFields(const std::filesystem::path& series);
 
 /// The locks that processes of this machine have now.
 class Locks {

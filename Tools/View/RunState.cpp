@@ -16,6 +16,7 @@
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Files/TextFile.h"
 #include "Kernel/Simulation/SummaryFile.h"
+#include "Tools/View/FieldMaps.h"
 #include "Tools/View/FramePack.h"
 
 namespace pendular::view {
@@ -153,6 +154,16 @@ std::vector<std::string> tablesOf(const RunFiles& run) {
     return {names.begin(), names.end()};
 }
 
+Json mapsOf(const RunFiles& run) {
+    Json maps = Json::array();
+    for (const FieldSeries& series : fieldSeriesOf(run)) {
+        Json times = Json::array();
+        for (const FieldSeries::Entry& entry : series.entries) times.push_back(entry.time);
+        maps.push_back({{"name", series.name}, {"times", std::move(times)}});
+    }
+    return maps;
+}
+
 /// The table of this name, the part that is being written before the whole one of an earlier run.
 fs::path tableFile(const RunFiles& run, const std::string& table) {
     const std::vector<std::string> known = tablesOf(run);
@@ -230,6 +241,7 @@ Json details(const RunFiles& run) {
     }
     all["stateWritten"] = changedAt(run.file("-restart.h5"));
     all["tables"] = tablesOf(run);
+    all["maps"] = mapsOf(run);
     all["log"] = endOfLog(run);
     all["start"] = startOf(run);
     return all;

@@ -14,7 +14,7 @@ nlohmann::ordered_json overview(const RunFiles& run, const Locks& locks);
 
 /// All that the page of a run needs but frames and tables themselves: the overview, the rows of the summary,
 /// what is wrong, times of the frames, when the restart file was written (s since 1970; 0: there is none),
-/// names of the tables, the end of the log, the options of its start.
+/// names of the tables, the maps (name, times), the end of the log, the options of its start.
 nlohmann::ordered_json details(const RunFiles& run);
 
 /// Rows of a table of the run from a place in the file (bytes) on: columns, rows (null: no number), next (the

@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <malloc.h>
+#include <poll.h>
+#include <unistd.h>
 
 #include <cctype>
 #include <csignal>
 #include <ctime>
+#include <fstream>
 
-#include "BuildFolders.h"
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Base/InputError.h"
@@ -23,9 +25,37 @@ using namespace pendular::view;
 
 namespace {
 
+namespace fs = std::filesystem;
+
+/// Where the page and the drivers are: beside this program in a build, below share/pendular in a package.
+struct Installation {
+    fs::path page, drivers;
+    std::vector<std::string> driverNames;  // in a package: of the programs beside this one that are drivers
+
+    Installation() {
+        std::error_code problem;
+        const fs::path own = fs::read_symlink("/proc/self/exe", problem).parent_path();
+        page = own / "ViewPage", drivers = own.parent_path() / "Drivers";
+        for (fs::path above = own; above.has_relative_path() && !fs::exists(page / "main.js", problem);
+             above = above.parent_path())
+            takeShared(above / "share/pendular", own);
+    }
+
+private:
+    void takeShared(const fs::path& shared, const fs::path& own) {
+        std::error_code problem;
+        if (!fs::exists(shared / "drivers.txt", problem)) return;
+        page = shared / "ViewPage", drivers = own;
+        std::ifstream names(shared / "drivers.txt");
+        for (std::string name; std::getline(names, name);) driverNames.push_back(name);
+    }
+};
+
 struct Options {
-    std::string folder = ".", listen = "127.0.0.1", page = (folders::tools / "ViewPage").string(),
-                drivers = folders::drivers.string();
+    Installation installed;
+    std::string folder = ".", listen = "127.0.0.1", page = installed.page.string(),
+                drivers = installed.drivers.string();
+    bool endsWithInput = false;
     int port = 0, atOnce = 1;
     std::vector<std::string> hosts;
     std::string frameOf;
@@ -50,6 +80,8 @@ void describe(CLI::App& app, Options& o) {
     app.add_option("--at-once", o.atOnce, "runs that are started from the page and compute at once");
     app.add_option("--drivers", o.drivers, "folder of the drivers");
     app.add_option("--page", o.page, "folder of the built page");
+    app.add_flag("--end-with-input", o.endsWithInput,
+                 "ends when its standard input does, as with the program that has started it");
 }
 
 void check(const Options& o) {
@@ -57,7 +89,7 @@ void check(const Options& o) {
     checkValue("view", "--at-once", o.atOnce, "", {1, 64});
     if (!std::filesystem::exists(std::filesystem::path(o.page) / "main.js"))
         throw InputError(
-            fmt::format("view: the page has not been built into {}; Tools/view.sh does that.", o.page));
+            fmt::format("view: the page is not in {}; in the source, Tools/view.sh builds it.", o.page));
     if (o.frameOf.find_first_of(" ;,'\"\n") != std::string::npos)
         throw InputError("view: --frame-of must be one address, as http://localhost:8888.");
 }
@@ -79,10 +111,17 @@ std::string printedHost(const Options& o) {
     return o.listen == "0.0.0.0" ? "localhost" : o.listen;
 }
 
-/// Until Ctrl-C or SIGTERM.
-void serve(Api& api, Server& server, const sigset_t& ends) {
+/// Whether nothing more can come from the standard input; what comes is not looked at.
+bool hasInputEnded() {
+    pollfd input{0, POLLIN, 0};
+    char ignored[256];
+    return poll(&input, 1, 0) > 0 && read(0, ignored, sizeof ignored) <= 0;
+}
+
+/// Until Ctrl-C or SIGTERM, or the end of the input.
+void serve(Api& api, Server& server, const sigset_t& ends, bool endsWithInput) {
     const timespec wait{0, 200'000'000};
-    while (sigtimedwait(&ends, nullptr, &wait) < 0) {
+    while (sigtimedwait(&ends, nullptr, &wait) < 0 && !(endsWithInput && hasInputEnded())) {
         server.tend();
         api.tend();
     }
@@ -108,7 +147,9 @@ int run(const Options& o) {
     hosts.insert(o.hosts.begin(), o.hosts.end());
     const std::string token = newToken(), cookie = "pendular-" + token.substr(0, 8);
     Api api({token, hosts, cookie}, runs,
-            {o.page, o.drivers, o.frameOf.empty() ? "'none'" : "'self' " + o.frameOf},
+            {o.page, o.drivers,
+             o.drivers == o.installed.drivers ? o.installed.driverNames : std::vector<std::string>(),
+             o.frameOf.empty() ? "'none'" : "'self' " + o.frameOf},
             static_cast<std::size_t>(o.atOnce));
     Server server(api, o.listen, static_cast<std::uint16_t>(o.port), cookie);
     fmt::print(
@@ -116,7 +157,7 @@ int run(const Options& o) {
         "http://{}:{}/?token={}\n",
         runs.root().string(), printedHost(o), server.port(), token);
     std::fflush(stdout);
-    serve(api, server, ends);
+    serve(api, server, ends, o.endsWithInput);
     return 0;
 }
 

@@ -1,7 +1,8 @@
 // Writes runs that the tests of `view` look at, by the kernel's own writers.
-//   ViewFrames picture FOLDER          a frame with grains, a bridge, a shape and a mesh of known places
-//   ViewFrames damaged FOLDER KIND     a frame as no run writes it: lines (contacts without ends), ends (a
-//   contact with
+//   ViewFrames picture FOLDER          a frame with grains, a bridge, a shape, a droplet and a mesh of known
+//   places ViewFrames hdf5 FOLDER             the same, but for the shape, as an HDF5 frame ViewFrames fields
+//   FOLDER           fields of one grain at two times, in one, two and three directions ViewFrames damaged
+//   FOLDER KIND     a frame as no run writes it: lines (contacts without ends), ends (a contact with
 //                                      four), identity (of nine numbers)
 //   ViewFrames lattice FOLDER N BRIDGES FRAMES    N grains in a lattice, with about so many bridges
 
@@ -9,8 +10,10 @@
 #include <cstdlib>
 #include <string>
 
+#include "Kernel/CoarseGraining/FieldFiles.h"
 #include "Kernel/Files/CsvFile.h"
-#include "Kernel/Output/ParaViewSeries.h"
+#include "Kernel/Output/Hdf5Output.h"
+#include "Kernel/Output/ParaViewOutput.h"
 #include "Kernel/Output/PolyData.h"
 
 using namespace pendular;
@@ -101,8 +104,9 @@ void writeSummary(const std::string& name, std::size_t grains, double time) {
 }
 
 /// Nine grains of 1 mm in a square in the plane y = 0, whose speeds are 0 to 8 m/s; a clump of two that
-/// overlap, a cube; a bridge between the first two; a small grain hidden behind the fifth; a floor.
-void writePicture(const std::string& name) {
+/// overlap, a grain that is a cube for ParaView; a bridge between the first two; a small grain hidden behind
+/// the fifth; a droplet; a floor.
+SceneFrame picture() {
     std::vector<Place> places;
     Floats radii, speeds;
     const auto add = [&](const Place& place, float radius, float speed) {
@@ -112,14 +116,54 @@ void writePicture(const std::string& name) {
         add({3e-3 * (k % 3 - 1), 0, 3e-3 * (k / 3 - 1)}, 1e-3F, static_cast<float>(k));
     add({0, 4e-3, 0}, 5e-4F, 8), add({6e-3, 0, 0}, 1e-3F, 2), add({6e-3, 0, 1.2e-3}, 1e-3F, 2);
     add({-6e-3, 0, 0}, 1.5e-3F, 6);
-    ParaViewSeries series(name, -INFINITY);
-    const PolyData grains = grainsOf(places, radii, speeds);
-    writePolyData(series.add("particles", 0, 0), grains);
-    writePolyData(series.add("contacts", 0, 0), contactsOf(grains, {{0, 1, 1e-10}}));
-    writePolyData(series.add("walls", 0, 0), square(8e-3, -5e-3));
-    writePolyData(series.add("shapes", 0, 0), cube({-6e-3, 0, 0}, 8e-4, 112));
-    series.write();
-    writeSummary(name, places.size(), 0);
+    SceneFrame frame;
+    frame.grains = grainsOf(places, radii, speeds);
+    frame.contacts = contactsOf(frame.grains, {{0, 1, 1e-10}});
+    frame.walls = square(8e-3, -5e-3);
+    frame.shapes = cube({-6e-3, 0, 0}, 8e-4, 112);
+    frame.droplets.emplace();
+    frame.droplets->points = {{1.5e-3, 0, 1.5e-3}};
+    frame.droplets->corners = {0}, frame.droplets->ends = {1};
+    frame.droplets->pointFields = {{"radius_m", 1, Floats{3e-4F}}};
+    return frame;
+}
+
+void writePicture(const std::string& name) {
+    const SceneFrame frame = picture();
+    ParaViewFrames(name, -INFINITY).add(frame, 1);
+    writeSummary(name, frame.grains.points.size(), 0);
+}
+
+void writeHdf5Picture(const std::string& name) {
+    SceneFrame frame = picture();
+    Hdf5Frames series(name, -INFINITY);
+    for (frame.step = 0; frame.step < 2; ++frame.step) frame.time = 0.5 * frame.step, series.add(frame, 1);
+    writeSummary(name, frame.grains.points.size(), 0.5);
+}
+
+/// A grain of 1 g in the middle of a box of 20 mm; after 0.1 s it goes up with 2 m/s. The kernel has a width
+/// of 3 mm, and points are 2 mm apart.
+void writeFields(const std::string& name) {
+    const auto sumsOf = [](std::string_view coordinates, double speed) {
+        const FieldGrid grid(coordinates, {0, 0, 0}, {0.02, 0.02, 0.02}, 2e-3);
+        FieldSums sums(grid, SmoothingKernel(KernelShape::Gauss, grid.dimensions(), 3e-3));
+        GrainState state;
+        state.grains.push_back({{0.011, 0.009, 0.007}, {0, 0, speed}, 1e-3, 1e-3});
+        sums.add(state);
+        return sums;
+    };
+    ParaViewSeries plane(name + "-coarse", -INFINITY, ".vti");
+    Hdf5Series space(name + "-space", -INFINITY);
+    CsvFile table(name + "-line.csv", headerOf(sumsOf("Z", 0)));
+    for (const std::uint64_t step : {0, 100}) {
+        const double time = 1e-3 * static_cast<double>(step), speed = step > 0 ? 2 : 0;
+        writeImage(plane.add("fields", time, step), sumsOf("XZ", speed), time);
+        writeHdf5(space.fileOf(step), sumsOf("XYZ", speed), time, step);
+        space.add(step, time);
+        forEachRow(sumsOf("Z", speed), time, [&](const std::string& row) { table.row(row); });
+    }
+    plane.write(), table.close();
+    writeSummary(name, 1, 0.1);
 }
 
 /// Two grains, and what would be read or written out of bounds if it were trusted.
@@ -172,6 +216,8 @@ int main(int argc, char** argv) {
     if (argc < 3) return 2;
     const std::string name = argv[2] + std::string("/run");
     if (argv[1] == std::string("picture")) writePicture(name);
+    else if (argv[1] == std::string("hdf5")) writeHdf5Picture(name);
+    else if (argv[1] == std::string("fields")) writeFields(name);
     else if (argc == 4 && argv[1] == std::string("damaged")) writeDamaged(name, argv[3]);
     else if (argc == 6)
         writeLattice(name, std::strtoull(argv[3], nullptr, 10), std::strtoull(argv[4], nullptr, 10),

@@ -60,6 +60,7 @@ from ._kernel import (  # noqa: E402  (which is in the folder that was chosen)
 )
 from ._kernel import __version__ as _version
 from ._log import show_log as _show_log
+from ._view import view
 from .results import draw, frames, restart, table, to_pyvista, walls_to_pyvista
 from .scene import Scene
 
@@ -69,7 +70,7 @@ __all__ = [
     "draw", "even_sizes", "fields", "frames", "load_species", "lognormal_sizes", "membrane_sheet", "membrane_tube",
     "mesh_inside", "normal_sizes", "one_size", "rank", "rank_count", "read_sizes", "restart", "rosin_rammler_sizes",
     "shaped_species", "sizes", "softest_modulus", "species", "sphere", "superquadric", "table", "terminal_speed",
-    "to_pyvista", "walls_to_pyvista",
+    "to_pyvista", "view", "walls_to_pyvista",
 ]  # fmt: skip
 __version__ = _version
 

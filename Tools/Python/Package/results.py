@@ -37,7 +37,7 @@ def _numbers(data: Any) -> np.ndarray:
 def frames(file: Path, part: str = "particles") -> Iterator[Tuple[float, Columns]]:
     """The time (s) and the columns of each frame of NAME-fields.h5 (write_hdf5()), by the names that Scene.grains() has.
 
-    file: its name. part: particles, contacts or walls; of files of write_fields(hdf5=True): fields. Raises InputError.
+    file: its name. part: particles, contacts, walls or droplets; of files of write_fields(hdf5=True): fields. Raises InputError.
     """
     with _open(file) as run:
         if "step" not in run:

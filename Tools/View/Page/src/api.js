@@ -15,11 +15,14 @@ export async function post(path, wish) {
     return (await answer(await fetch(`api/${path}`, { method: "POST", headers, body: JSON.stringify(wish) }))).json();
 }
 
-/** A frame (Tools/View/FramePack.h): what its text tells, and its columns by their names as Float32Array. */
-export async function getFrame(words) {
-    const bytes = await (await answer(await fetch(address("frame", words)))).arrayBuffer();
+/** Columns of numbers (Tools/View/Columns.h): what their text tells, and each by its name as Float32Array. */
+export async function getColumns(path, words) {
+    const bytes = await (await answer(await fetch(address(path, words)))).arrayBuffer();
     const length = new DataView(bytes).getUint32(0, true);
     const head = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)));
     for (const { name, begin, count } of head.columns) head[name] = new Float32Array(bytes, 4 + length + begin, count);
     return head;
 }
+
+/** A frame (Tools/View/FramePack.h). */
+export const getFrame = (words) => getColumns("frame", words);

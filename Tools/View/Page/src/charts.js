@@ -1,5 +1,6 @@
 import { CategoryScale, Chart, Decimation, Legend, LinearScale, LineController, LineElement, PointElement, Tooltip } from "chart.js";
 import { get } from "./api.js";
+import { isProfile, ProfileMap } from "./maps.js";
 import { make, number, tell } from "./text.js";
 
 Chart.register(CategoryScale, Decimation, Legend, LinearScale, LineController, LineElement, PointElement, Tooltip);
@@ -59,8 +60,18 @@ export class Table {
         return xs.map((value, k) => ({ x: value, y: ys[k] })).filter((p) => Number.isFinite(p.x) && Number.isFinite(p.y));
     }
 
+    /** Of a table with places, whole times go. */
     #thin() {
-        while ((this.values[0]?.length ?? 0) > 2 * mostRows) this.values = this.values.map((column) => column.filter((_, k) => k % 2 === 0));
+        while ((this.values[0]?.length ?? 0) > (isProfile(this) ? 10 : 2) * mostRows) {
+            let number = -1, before = NaN;
+            const keeps = this.values[0].map((time) => {
+                if (!isProfile(this) || time !== before) ++number;
+                before = time;
+                return number % 2 === 0;
+            });
+            if (keeps.every(Boolean)) return;
+            this.values = this.values.map((column) => column.filter((_, k) => keeps[k]));
+        }
     }
 }
 
@@ -69,13 +80,14 @@ function isChart({ columns, values }) {
     return columns.length > 1 && values[0].every((x, k) => k === 0 || x >= values[0][k - 1]);
 }
 
-/** A chart of a table with a box for each column. */
+/** A chart of a table with a box for each column; of fields along one direction, a map. */
 export class TableChart {
     constructor(id, name) {
         this.table = new Table(id, name);
         this.canvas = make("canvas", { role: "img", "aria-label": `chart of ${name}` });
         this.boxes = make("div", { class: "columns", role: "group", "aria-label": `columns of ${name}` });
-        this.element = make("section", { class: "panel" }, make("h3", {}, name), make("div", { class: "chart" }, this.canvas), this.boxes);
+        this.body = make("div", {}, make("div", { class: "chart" }, this.canvas), this.boxes);
+        this.element = make("section", { class: "panel" }, make("h3", {}, name), this.body);
     }
 
     async refresh() {
@@ -84,6 +96,7 @@ export class TableChart {
         } catch (problem) {
             return tell(problem.message);
         }
+        if (isProfile(this.table)) return this.#showMap();
         this.element.hidden = !isChart(this.table);
         if (this.element.hidden) return;
         this.chart ??= this.#begin();
@@ -93,6 +106,15 @@ export class TableChart {
     end() {
         this.chart?.destroy();
         this.isOver = true;
+    }
+
+    #showMap() {
+        if (!this.map) {
+            this.chart?.destroy();
+            this.map = new ProfileMap(this.table.name);
+            this.body.replaceChildren(this.map.element);
+        }
+        this.map.show(this.table);
     }
 
     #begin() {

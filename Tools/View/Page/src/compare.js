@@ -11,7 +11,7 @@ export function showCompare(page, ids) {
         if (other.scene.camera === camera) return;
         other.scene.camera.from(camera.turn, camera.tilt);
         other.scene.camera.distance = (camera.distance / camera.size) * other.scene.camera.size;
-        other.redraw();
+        other.moved();
     });
     const differences = make("table"), chart = new ComparedTables(ids);
     page.replaceChildren(make("h2", {}, "Compare"),

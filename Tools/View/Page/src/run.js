@@ -1,19 +1,20 @@
 import { get, post } from "./api.js";
 import { Charts } from "./charts.js";
+import { FieldMap } from "./maps.js";
 import { factsOf, stateLine, timeLeft } from "./runs.js";
 import { make, tell, Teller } from "./text.js";
 import { Viewer } from "./viewer.js";
 
 /** The page of one run. Returns what ends it. */
 export function showRun(page, id) {
-    const viewer = new Viewer(id), charts = new Charts(id), speeds = new Map();
+    const viewer = new Viewer(id), charts = new Charts(id), speeds = new Map(), maps = new Map();
     const state = make("div"), facts = make("div", { class: "quiet" }), health = make("div"), rows = make("table");
-    const log = make("pre", { tabindex: "0" }), buttons = make("div", { class: "buttons" });
+    const mapPart = make("div", { class: "charts" }), log = make("pre", { tabindex: "0" }), buttons = make("div", { class: "buttons" });
     const logPart = make("details", {}, make("summary", {}, "What the run has printed"), log);
     page.replaceChildren(make("h2", {}, id),
         make("div", { class: "run" }, make("div", {}, viewer.element),
             make("div", {}, make("div", { class: "panel" }, state, facts, buttons, health), viewer.controls)),
-        charts.element, make("details", {}, make("summary", {}, "Summary of the run"), rows), logPart);
+        mapPart, charts.element, make("details", {}, make("summary", {}, "Summary of the run"), rows), logPart);
     try {
         viewer.begin();
     } catch (problem) {
@@ -49,6 +50,14 @@ export function showRun(page, id) {
         known = new Set();
         optionsOf(driver).then((names) => { known = names, before = buttonsFor = ""; }).catch((problem) => tell(problem.message));
     }
+    async function showMaps(series) {
+        for (const { name } of series)
+            if (!maps.has(name)) {
+                maps.set(name, new FieldMap(id, name));
+                mapPart.append(maps.get(name).element);
+            }
+        await Promise.all(series.map(({ name, times }) => maps.get(name).setTimes(times)));
+    }
     async function refresh() {
         if (isOver) return;
         try {
@@ -59,6 +68,7 @@ export function showRun(page, id) {
             log.textContent = run.log;
             logPart.hidden = run.log === "";
             viewer.setTimes(run.frames, run.stateWritten);
+            await showMaps(run.maps);
             await charts.refresh(run.tables);
             told.clear();
         } catch (problem) {
@@ -67,7 +77,7 @@ export function showRun(page, id) {
         if (!isOver) timer = setTimeout(refresh, 1000);
     }
     let timer = setTimeout(refresh, 0);
-    window.pendular.viewer = viewer;
+    Object.assign(window.pendular, { viewer, maps, charts });
     return () => { isOver = true; clearTimeout(timer); viewer.end(); charts.end(); };
 }
 

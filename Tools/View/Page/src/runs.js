@@ -59,7 +59,7 @@ class Pictures {
         const { value } = content;
         this.scene.look.range = [value.reduce((a, b) => Math.min(a, b), Infinity), value.reduce((a, b) => Math.max(a, b), -Infinity)];
         this.scene.lookAtAll();
-        this.scene.render(true);
+        this.scene.render({ finish: true });
         return this.canvas.toDataURL("image/png");
     }
 }

@@ -24,11 +24,9 @@ export function duration(seconds) {
     return `${Math.floor(s / 3600)} h ${Math.floor((s % 3600) / 60)} min`;
 }
 
-/** "velocity_m_per_s" in the unit "m/s": "velocity (m/s)". */
-export function fieldLabel({ name, unit }) {
-    const end = "_" + unit.replaceAll("^", "").replaceAll("/", "_per_").replaceAll(" ", "");
-    const bare = unit && name.endsWith(end) ? name.slice(0, -end.length) : name;
-    return bare.replaceAll("_", " ") + (unit ? ` (${unit})` : "");
+/** The quantity "granular_temperature" in the unit "m^2/s^2": "granular temperature (m^2/s^2)". */
+export function fieldLabel({ quantity, unit }) {
+    return quantity.replaceAll("_", " ") + (unit ? ` (${unit})` : "");
 }
 
 /** An element: make("a", {href: "#"}, "text", other). Attributes that are functions are listeners. */

@@ -1,16 +1,17 @@
 import { get, getFrame } from "./api.js";
-import { colourMap, colourMapNames } from "./scene/colours.js";
+import { Legend, Range } from "./legend.js";
+import { colourMapNames } from "./scene/colours.js";
 import { Scene } from "./scene/Scene.js";
 import { fieldLabel, labelled, make, number, tell, Teller } from "./text.js";
 
 const presets = { front: [0, 0], right: [Math.PI / 2, 0], behind: [Math.PI, 0], left: [-Math.PI / 2, 0], above: [0, Math.PI / 2], slanted: [-0.6, 0.35] };
 const defaultField = "velocity_m_per_s";
+const longestDrawing = 300;  // ms: what takes longer is drawn coarsely while the camera moves
 
 /** A run in three dimensions with its controls: `element` is for the page, `controls` stands beside it. */
 export class Viewer {
     fields = [];
     field = defaultField;
-    fixedRange = null;  // [lowest, highest]; null: by frame
     shown = -1;
     times = [];
     follows = true;
@@ -44,6 +45,7 @@ export class Viewer {
     /** Gives back listeners and the context, of which a browser has few. */
     end() {
         clearInterval(this.playing);
+        clearTimeout(this.rests);
         this.isOver = true;
         this.over.abort();
         this.size?.disconnect();
@@ -87,8 +89,20 @@ export class Viewer {
         this.isDue = true;
         requestAnimationFrame(() => {
             this.isDue = false;
-            if (!this.isOver) this.scene.render();
+            if (!this.isOver) this.scene.render({ isCoarse: this.isMoving });
         });
+    }
+
+    /** The camera has moved, and may do so again soon. */
+    moved() {
+        clearTimeout(this.rests);
+        this.isMoving = this.drawing > longestDrawing;
+        if (this.isMoving)
+            this.rests = setTimeout(() => {
+                this.isMoving = false;
+                this.redraw();
+            }, 300);
+        this.redraw();
     }
 
     play() {
@@ -139,7 +153,7 @@ export class Viewer {
     /** The frame, with the field that it has been asked for. */
     async #load(frame) {
         if (!this.scene) return;
-        const { scene } = this, words = { id: this.id, frame, field: this.field, orRadius: 1, contacts: scene.look.contacts ? 1 : 0, bridges: scene.look.bridges ? 1 : 0 };
+        const { scene } = this, words = { id: this.id, frame, field: this.field, orRadius: 1, contacts: scene.look.contacts ? 1 : 0, bridges: scene.look.bridges ? 1 : 0, droplets: scene.look.droplets ? 1 : 0 };
         if (this.origin) words.origin = this.origin.join(",");
         const next = await getFrame(words);
         const first = this.fields.length === 0;
@@ -152,7 +166,9 @@ export class Viewer {
         scene.show(next);
         if (first) scene.lookAtAll();
         this.#takeRange();
-        scene.render(true);
+        const begin = performance.now();
+        scene.render({ finish: true });
+        this.drawing = performance.now() - begin;
         this.slider.value = frame;
         this.#sayTime();
         this.loads = (this.loads ?? 0) + 1;
@@ -170,19 +186,8 @@ export class Viewer {
 
     /** By frame: of the values that are drawn, which may be a part of a vector. */
     #takeRange() {
-        let [lowest, highest] = this.fixedRange ?? [Infinity, -Infinity];
-        if (!this.fixedRange)
-            for (const value of this.scene.frame.value) {
-                if (value < lowest) lowest = value;
-                if (value > highest) highest = value;
-            }
-        this.scene.look.range = lowest <= highest ? [lowest, highest] : [0, 1];
-        const field = this.#describe();
-        this.low.textContent = number(this.scene.look.range[0]);
-        this.high.textContent = number(this.scene.look.range[1]);
-        this.unit.textContent = field ? field.unit : "";
-        const scale = this.scaleCanvas.getContext("2d");
-        scale.putImageData(new ImageData(new Uint8ClampedArray(colourMap(this.scene.look.map)), 256, 1), 0, 0);
+        this.scene.look.range = this.range.of(this.scene.frame.value);
+        this.legend.show(this.scene.look.map, this.scene.look.range, this.#describe()?.unit ?? "");
     }
 
     #offerFields() {
@@ -207,10 +212,9 @@ export class Viewer {
             else this.redraw();
         } });
         this.fieldSelect = make("select", { change: () => { this.field = this.fieldSelect.value; this.ask(this.shown); } });
-        this.scaleCanvas = make("canvas", { class: "scale", width: 256, height: 1, "aria-hidden": "true" });
-        [this.low, this.high, this.unit] = ["span", "span", "span"].map((tag) => make(tag));
+        this.legend = new Legend();
+        this.range = new Range(() => { this.#takeRange(); this.redraw(); });
         const map = make("select", { change: () => { this.scene.look.map = map.value; this.#takeRange(); this.redraw(); } }, ...colourMapNames.map((name) => new Option(name)));
-        const ends = ["lowest", "highest"].map((word) => make("input", { type: "text", inputmode: "decimal", placeholder: `${word}, by frame`, "aria-label": `${word} of the colours`, change: () => this.#fixRange(ends) }));
         const axis = make("select", { "aria-label": "Axis of the cut" }, new Option("no cut", ""), ...["x", "y", "z"].map((a) => new Option(`cut across ${a}`, a)));
         const share = make("input", { type: "range", min: 0, max: 1, step: 0.005, value: 0.5, "aria-label": "Place of the cut" });
         const side = make("input", { type: "checkbox" });
@@ -218,28 +222,17 @@ export class Viewer {
             input.addEventListener("input", () => { this.scene.look.clip = axis.value ? { axis: axis.value, share: Number(share.value), keepsHigh: side.checked } : null; this.redraw(); });
         this.picked = make("div", { "aria-live": "polite" });
         return make("div", { class: "panel controls" },
-            labelled("Colour by", this.fieldSelect), this.scaleCanvas,
-            make("div", { class: "legend" }, this.low, this.unit, this.high),
-            make("div", { class: "pair" }, ...ends), labelled("Colours", map),
+            labelled("Colour by", this.fieldSelect), this.legend.element, this.range.element, labelled("Colours", map),
             make("label", {}, check("grains", true), "grains"), make("label", {}, check("bridges", true, true), "bridges"),
-            make("label", {}, check("contacts", false, true), "contacts by force"), make("label", {}, check("walls", true), "walls"),
+            make("label", {}, check("contacts", false, true), "contacts by force"), make("label", {}, check("droplets", true, true), "droplets of sprays"), make("label", {}, check("walls", true), "walls"),
             axis, share, make("label", {}, side, "keep the other side"),
             make("div", { class: "buttons" }, ...Object.keys(presets).map((name) => make("button", { click: () => this.preset(name) }, name)), make("button", { click: () => this.reset() }, "all")),
             make("div", { class: "buttons" }, make("button", { click: () => this.savePicture() }, "Save picture"), make("button", { click: () => this.saveFilm() }, "Save film")),
             this.picked);
     }
 
-    #fixRange(ends) {
-        const values = ends.map((input) => input.value.trim() === "" ? NaN : Number(input.value));
-        const isWrong = ends.some((input, k) => input.value.trim() !== "" && !Number.isFinite(values[k]));
-        this.fixedRange = values.every(Number.isFinite) && values[0] < values[1] ? values : null;
-        ends.forEach((input) => input.classList.toggle("wrong", isWrong));
-        this.#takeRange();
-        this.redraw();
-    }
-
     #looked() {
-        this.redraw();
+        this.moved();
         this.onLook(this.scene.camera);
     }
 

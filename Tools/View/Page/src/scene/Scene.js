@@ -8,7 +8,7 @@ import * as shaders from "./shaders.js";
 /** Draws a frame into a canvas by WebGL2. Throws Error where the browser has none. */
 export class Scene {
     camera = new Camera();
-    look = { map: "viridis", range: [0, 1], grains: true, bridges: true, contacts: false, walls: true, clip: null, background: [1, 1, 1] };
+    look = { map: "viridis", range: [0, 1], grains: true, bridges: true, contacts: false, droplets: true, walls: true, clip: null, background: [1, 1, 1] };
     frame = null;
 
     constructor(canvas) {
@@ -19,7 +19,7 @@ export class Scene {
         this.columns = Math.min(4096, gl.getParameter(gl.MAX_TEXTURE_SIZE));
         const conservative = !!gl.getExtension("EXT_conservative_depth");
         this.programs = Object.fromEntries(["balls", "rods", "triangles"].map((name) => [name, this.#link(shaders[name].vertex, shaders[name].fragment(conservative))]));
-        this.textures = Object.fromEntries(["colours", "grains", "values", "bridges", "contacts"].map((name) => [name, this.#texture()]));
+        this.textures = Object.fromEntries(["colours", "grains", "values", "bridges", "contacts", "droplets"].map((name) => [name, this.#texture()]));
         this.rectangles = { array: gl.createVertexArray(), buffer: gl.createBuffer(), count: 0 };
         this.surfaces = { walls: this.#surface(), shapes: this.#surface() };
     }
@@ -30,6 +30,7 @@ export class Scene {
         this.sortedFor = null;
         frame.contactRods = frame.contacts ? rodsOfContacts(frame) : new Float32Array();
         this.#fill(this.textures.contacts, frame.contactRods, 4);
+        if (frame.droplets) this.#fill(this.textures.droplets, frame.droplets, 4);
         this.#upload(this.surfaces.walls, withRow(frame.walls), frame.walls.length / 3);
         this.#upload(this.surfaces.shapes, frame.shapes, frame.shapes.length / 4);
     }
@@ -44,15 +45,18 @@ export class Scene {
         if (this.frame) this.camera.lookAt(...boxOf(this.frame));
     }
 
-    /** Draws; with `finish` it waits until the picture is there. */
-    render(finish = false) {
-        const { gl, canvas, look } = this, scale = Math.min(devicePixelRatio || 1, 2);
+    /**
+     * Draws; with `finish` it waits until the picture is there. `isCoarse`: half as fine, and without bridges and contacts,
+     * for what takes long while the camera moves.
+     */
+    render({ finish = false, isCoarse = false } = {}) {
+        const { gl, canvas, look } = this, scale = Math.min(devicePixelRatio || 1, 2) * (isCoarse ? 0.5 : 1);
         const width = Math.max(1, Math.round(canvas.clientWidth * scale)), height = Math.max(1, Math.round(canvas.clientHeight * scale));
         if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
         gl.viewport(0, 0, width, height);
         gl.clearColor(...look.background, 1);
         gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-        if (this.frame) this.#draw();
+        if (this.frame) this.#draw(isCoarse);
         if (finish) gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
     }
 
@@ -81,17 +85,18 @@ export class Scene {
         return [(0.5 + 0.5 * p[0]) * this.canvas.width, (0.5 - 0.5 * p[1]) * this.canvas.height];
     }
 
-    #draw() {
+    #draw(isCoarse) {
         const { gl, look, frame } = this;
         this.#sort();
         this.#fillColours();
         gl.enable(gl.DEPTH_TEST);
         if (look.grains) {
-            this.#pull("balls", this.textures.grains, frame.grains.length / 4);
+            this.#pull("balls", this.textures.grains, frame.grains.length / 4, { isWater: 0 });
             this.#triangles(this.surfaces.shapes, true, 1);
         }
-        if (look.bridges && frame.bridges) this.#pull("rods", this.textures.bridges, frame.bridges.length / 8, { hasColours: 0 });
-        if (look.contacts && frame.contacts)
+        if (look.droplets && frame.droplets) this.#pull("balls", this.textures.droplets, frame.droplets.length / 4, { isWater: 1 });
+        if (look.bridges && frame.bridges && !isCoarse) this.#pull("rods", this.textures.bridges, frame.bridges.length / 8, { hasColours: 0 });
+        if (look.contacts && frame.contacts && !isCoarse)
             this.#pull("rods", this.textures.contacts, frame.contactRods.length / 8, { hasColours: 1 }, [0, frame.largestForce]);
         if (look.walls) this.#drawWalls();
     }

@@ -22,6 +22,7 @@ const vec2 corners[4] = vec2[4](vec2(-1, -1), vec2(1, -1), vec2(-1, 1), vec2(1, 
 vec4 fetch(sampler2D from, int k) { return texelFetch(from, ivec2(k % columns, k / columns), 0); }
 bool isHidden(vec3 p) { return dot(clip.xyz, p) > clip.w; }
 const vec4 nowhere = vec4(2, 2, 2, 1);
+const vec3 water = vec3(0.15, 0.45, 0.85);
 vec3 colourOf(float value) {
     float share = range.y > range.x ? (value - range.x) / (range.y - range.x) : 0.5;
     return texture(colours, vec2((clamp(share, 0., 1.) * 255. + 0.5) / 256., 0.5)).rgb;
@@ -36,6 +37,7 @@ float depthOf(mat4 projection, vec3 at) { vec4 s = projection * vec4(at, 1); ret
 
 export const balls = {
     vertex: head + corner + `
+uniform bool isWater;          // in one colour; else by value
 out vec3 colour, towards;
 flat out vec4 ball;
 void main() {
@@ -50,7 +52,7 @@ void main() {
     vec2 c = corners[gl_VertexID - 4 * k];
     towards = (centre + half_ * (c.x * side + c.y * cross(side, ahead))) * max((far - 1.001 * r) / far, 1e-4);
     ball = vec4(centre, r);
-    colour = colourOf(fetch(values, k).r);
+    colour = isWater ? water : colourOf(fetch(values, k).r);
     gl_Position = projection * vec4(towards, 1);
 }`,
     fragment: (conservative) => depthHead(conservative) + light + `
@@ -70,7 +72,7 @@ void main() {
 
 export const rods = {
     vertex: head + corner + `
-uniform bool hasColours;       // by the number at the second end; else all are blue, as water
+uniform bool hasColours;       // by the number at the second end; else as water
 out vec3 colour, towards;
 flat out vec4 begin;
 flat out vec4 axis;            // unit vector and length
@@ -90,7 +92,7 @@ void main() {
     float wider = 1.15 * far / max(far - before, 0.2 * far);
     towards = (middle + wider * (r * c.x * across + halfLength * c.y * along)) * max((far - before) / far, 0.2);
     begin = vec4(a, r);
-    colour = hasColours ? colourOf(second.w) : vec3(0.15, 0.45, 0.85);
+    colour = hasColours ? colourOf(second.w) : water;
     gl_Position = projection * vec4(towards, 1);
 }`,
     fragment: (conservative) => depthHead(conservative) + light + `
