@@ -89,9 +89,10 @@ PolyData grainPoints(const ParticleStore& grains, const ContactLaws& laws) {
 }
 
 template <std::floating_point Real>
-PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& grains) {
+PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& grains,
+                            const ContactLaws& laws) {
     std::vector<std::array<double, 9>> sums(grains.size());  // of the grain at each place
-    const GrainShapes* const shapes = contacts.laws().shapes();
+    const GrainShapes* const shapes = laws.shapes();
     const BodyArms arms(grains);
     const auto add = [&](std::uint32_t identity, double sign, const Vector<double>& branch,
                          const Vector<double>& force) {
@@ -141,7 +142,7 @@ PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& 
 
 template PolyData grainPoints<float>(const ParticleStore&, const ContactLaws&);
 template PolyData grainPoints<double>(const ParticleStore&, const ContactLaws&);
-template PolyDataField grainStresses<float>(const ContactSystem&, const ParticleStore&);
-template PolyDataField grainStresses<double>(const ContactSystem&, const ParticleStore&);
+template PolyDataField grainStresses<float>(const ContactSystem&, const ParticleStore&, const ContactLaws&);
+template PolyDataField grainStresses<double>(const ContactSystem&, const ParticleStore&, const ContactLaws&);
 
 }  // namespace pendular

@@ -138,7 +138,8 @@ SceneFrame frameOf(const FrameContent& content, const AddedFields& added, const 
                      {}};
     for (const auto& [name, valueOf] : added)
         frame.grains.pointFields.push_back(fieldOf<Real>(name, valueOf, store));
-    if (content.stress) frame.grains.pointFields.push_back(grainStresses<Real>(scene.contacts(), store));
+    if (content.stress)
+        frame.grains.pointFields.push_back(grainStresses<Real>(scene.contacts(), store, scene.laws()));
     if (content.contacts)
         frame.contacts =
             contactLines<Real>(scene.contacts(), store, scene.laws(),

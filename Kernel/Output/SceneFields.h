@@ -33,7 +33,8 @@ PolyData grainPoints(const ParticleStore& grains, const ContactLaws& laws);
 /// the overlap or of the gap. The grains of a rigid body have the mean stress of the body: with the branches
 /// from its centre of mass, over its volume.
 template <std::floating_point Real = float>
-PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& grains);
+PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& grains,
+                            const ContactLaws& laws);
 
 /// The fields of contactLines(), of doubles: a row for each contact that has a force, in the order of
 /// identities.

@@ -17,6 +17,11 @@ void requireNewColumn(const NamedColumn& added, std::string_view owners, bool is
         throw InputError(fmt::format(
             "The unit '{}' of the column '{}' of the {} must have letters, digits and _ only (as m_per_s).",
             printable(added.unit), added.name, owners));
+    // What files have of their own, wherever they have it.
+    if (added.fieldName() == (owners == "grains" ? "position_m" : "contact_point_m"))
+        throw InputError(
+            fmt::format("The column '{}' of the {} would have the name {} in files, which is taken.",
+                        added.name, owners, added.fieldName()));
     if (isTaken)
         throw InputError(fmt::format("There is a column '{}' of the {} already.", added.name, owners));
     if (!std::isfinite(added.initial))

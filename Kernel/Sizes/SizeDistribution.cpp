@@ -1,5 +1,7 @@
 #include "Kernel/Sizes/SizeDistribution.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -103,7 +105,16 @@ double SizeDistribution::moment(int k, double from, double to) const {
     return sum;
 }
 
-double SizeDistribution::mean(int k, int m) const { return std::pow(moment(k) / moment(m), 1.0 / (k - m)); }
+double SizeDistribution::mean(int k, int m) const {
+    const auto isOrder = [&](int order) { return order >= 0 && order < moments; };
+    if (!isOrder(k) || !isOrder(m) || k == m)
+        throw InputError(
+            fmt::format("The mean diameter D[{},{}] of a size distribution: its orders must be two different "
+                        "ones of 0 to "
+                        "{}.",
+                        k, m, moments - 1));
+    return std::pow(moment(k) / moment(m), 1.0 / (k - m));
+}
 
 double SizeDistribution::cumulative(SizeBasis basis, double diameter) const {
     const int k = static_cast<int>(basis);

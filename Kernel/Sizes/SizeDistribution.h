@@ -47,9 +47,10 @@ public:
     [[nodiscard]] double largest() const { return panels.back().high; }
     /// M_k, m^k, with M_0 = 1; @param k 0 to 4
     [[nodiscard]] double moment(int k) const { return borders[k].back(); }
-    /// The moment (m^k) of the grains from one diameter to another one (m).
+    /// The moment (m^k) of the grains from one diameter to another one (m); @param k 0 to 4
     [[nodiscard]] double moment(int k, double from, double to) const;
-    /// D[k,m] = (M_k / M_m)^(1 / (k - m)), m: D[1,0] the mean diameter, D[3,2] Sauter's, D[4,3].
+    /// D[k,m] = (M_k / M_m)^(1 / (k - m)), m: D[1,0] the mean diameter, D[3,2] Sauter's, D[4,3]. Throws
+    /// InputError unless k and m are two of 0 to 4.
     [[nodiscard]] double mean(int k, int m) const;
     /// The fraction of grains up to a diameter (m), on a basis.
     [[nodiscard]] double cumulative(SizeBasis basis, double diameter) const;

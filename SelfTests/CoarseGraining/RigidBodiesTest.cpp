@@ -83,8 +83,8 @@ TEST(StressOfBodies, isWhatARodCarries) {
         // the mean over the mass is F L / V.
         const double volume = unionOfSpheres(rod(5, spacing)).volume,
                      length = pressed.length + PressedRod::force / stiffness;  // to the middles of overlaps
-        const PolyDataField stress =
-            grainStresses<double>(pressed.scene.contacts(), pressed.scene.particleHandler.store());
+        const PolyDataField stress = grainStresses<double>(
+            pressed.scene.contacts(), pressed.scene.particleHandler.store(), pressed.scene.laws());
         for (std::size_t k = 0; k < 5; ++k)
             EXPECT_NEAR(-stress.at(9 * k + 8) * volume / (PressedRod::force * length), 1, 1e-9) << k;
         // From a frame: numbers of 32 bits, forces of 6 mN by overlaps of 6 um.

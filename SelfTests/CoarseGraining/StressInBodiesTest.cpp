@@ -108,8 +108,8 @@ TEST(StressInABody, isSymmetricWithTheTermOfItsRotation) {
         scene.step();
         if (k % 20 != 0) continue;
         const BodyReference body = scene.bodyHandler.getObject(0);
-        const PolyDataField stress =
-            grainStresses<double>(scene.contacts(), scene.particleHandler.store());  // rows: branches
+        const PolyDataField stress = grainStresses<double>(scene.contacts(), scene.particleHandler.store(),
+                                                           scene.laws());  // rows: branches
         Eigen::Matrix3d sum;
         for (std::size_t part = 0; part < 9; ++part)
             sum(static_cast<Eigen::Index>(part / 3), static_cast<Eigen::Index>(part % 3)) =

@@ -39,8 +39,10 @@ std::optional<BodyMass> massOf(std::optional<double> mass, const Vec3D& centre,
 
 AnyShape clump(const ArrayLike& spheres, std::optional<double> mass, const Vec3D& centre,
                const std::optional<ArrayLike>& inertia) {
-    if (const auto given = massOf(mass, centre, inertia)) return {ClumpTemplate(ballsOf(spheres), *given)};
-    return {ClumpTemplate(ballsOf(spheres))};
+    const auto given = massOf(mass, centre, inertia);
+    const std::vector<Ball> balls = ballsOf(spheres);
+    return withoutPython(
+        [&] { return given ? AnyShape{ClumpTemplate(balls, *given)} : AnyShape{ClumpTemplate(balls)}; });
 }
 
 Eigen::Quaterniond quaternionOf(const ArrayLike& orientation) {

@@ -47,7 +47,13 @@ py::dict contactsOf(const PythonScene& scene, std::size_t identity) {
     return made;
 }
 
+void requireListening(const PythonScene& scene) {
+    if (!scene.scene().contacts().events().isListening())
+        throw InputError("The scene does not listen to contacts; call listen_to_contacts() before.");
+}
+
 py::dict takeEvents(PythonScene& scene) {
+    if (scene.events.empty()) requireListening(scene);
     const std::size_t count = scene.events.size();
     std::vector<double> time(count);
     std::vector<std::int64_t> first(count), second(count), wall(count), kind(count);
@@ -106,6 +112,7 @@ void bindContacts(SceneClass& scene) {
         .def(
             "event_counts",
             [](const PythonScene& s) {
+                requireListening(s);
                 const ContactEventCounts& counts = s.scene().contactEventCounts();
                 py::dict made;
                 made["touches_begun"] = counts.touchesBegun, made["touches_ended"] = counts.touchesEnded;

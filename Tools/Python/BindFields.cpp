@@ -78,7 +78,13 @@ py::dict clusters(const PythonScene& scene, std::optional<double> distance) {
     return made;
 }
 
+void requireLedger(const PythonScene& scene) {
+    if (!scene.scene().keepsEnergyLedger())
+        throw InputError("The scene keeps no energy ledger; call keep_energy_ledger() before the run.");
+}
+
 py::dict energies(const PythonScene& scene) {
+    requireLedger(scene);
     const EnergyLedger& ledger = scene.scene().energyLedger();
     py::dict made;
     for (const EnergyLedger::Entry& entry : EnergyLedger::entries())
@@ -131,7 +137,11 @@ void bindFields(SceneClass& scene) {
              "lost, "
              "and was given. After keep_energy_ledger().")
         .def_property_readonly(
-            "energy_unaccounted", [](const PythonScene& s) { return s.scene().energyUnaccountedFor(); },
+            "energy_unaccounted",
+            [](const PythonScene& s) {
+                requireLedger(s);
+                return s.scene().energyUnaccountedFor();
+            },
             comment("Scene::energyUnaccountedFor"))
         .def_property_readonly(
             "kinetic_energy", [](const PythonScene& s) { return s.scene().getKineticEnergy(); },

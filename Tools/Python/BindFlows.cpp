@@ -30,7 +30,7 @@ std::size_t addInlet(PythonScene& scene, const Mixture& mixture, const AnyRegion
     inlet.setBodies(mixture.in(scene));
     if (s.massFlow) inlet.setMassFlow(*s.massFlow);
     else inlet.setNumberFlow(*s.numberFlow);
-    if (s.start > 0 || s.end < infinity) inlet.setTimes(s.start, s.end);
+    if (s.start != 0 || s.end != infinity) inlet.setTimes(s.start, s.end);
     inlet.setNoRoom(s.lost ? NoRoom::Lost : NoRoom::Later);
     inlet.setSeed(s.seed), inlet.setWholeGrains(s.wholeGrains);
     inlet.setRandomTurns(s.randomTurns), inlet.setTries(s.tries);
@@ -58,7 +58,7 @@ std::size_t addOutlet(PythonScene& scene, const std::optional<AnyRegion>& region
         const Doubles borders = rowsOf(*sizeClasses, "size_classes", 1);
         outlet.setSizeClasses({borders.data(), static_cast<std::size_t>(borders.size())});
     }
-    if (leastAge > 0) outlet.setLeastAge(leastAge);
+    if (leastAge != 0) outlet.setLeastAge(leastAge);
     if (condition)
         outlet.setCondition([kept = scene.keep(std::move(*condition)), &scene](const GrainReference& grain) {
             return scene.ask([&] { return isTrue((*kept)(grain.getId())); });

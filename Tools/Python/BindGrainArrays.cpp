@@ -91,24 +91,39 @@ py::array held(const PythonScene& scene) {
 }
 
 /// Sets numbers of all grains, or of those with these identities; each is checked as if it were set alone.
-template <class Set>
+/// Where one is refused, all are as before.
+template <class Get, class Set>
 void setAll(PythonScene& scene, const ArrayLike& rows, std::string_view name, py::ssize_t width,
-            const std::optional<ArrayLike>& which, Set&& set) {
+            const std::optional<ArrayLike>& which, const Get& get, const Set& set) {
     ParticleHandler& grains = scene.scene().particleHandler;
     std::vector<std::uint32_t> identities;
     if (which) identities = identitiesOf(*which, "identities");
     else
         for (const GrainReference grain : grains) identities.push_back(grain.getId());
     const PerGrain values(rows, name, width, static_cast<py::ssize_t>(identities.size()));
-    for (std::size_t k = 0; k < identities.size(); ++k)
-        set(grains.getObject(identities[k]), values, static_cast<py::ssize_t>(k));
+    std::vector<decltype(get(grains.getObject(0)))> before;
+    for (const std::uint32_t identity : identities) before.push_back(get(grains.getObject(identity)));
+    std::size_t done = 0;
+    try {
+        for (; done < identities.size(); ++done) {
+            const auto k = static_cast<py::ssize_t>(done);
+            if constexpr (std::is_same_v<typename decltype(before)::value_type, Vec3D>)
+                set(grains.getObject(identities[done]), values.vector(k));
+            else set(grains.getObject(identities[done]), values.number(k));
+        }
+    } catch (...) {
+        while (done > 0) --done, set(grains.getObject(identities[done]), before[done]);
+        throw;
+    }
 }
 
 using Which = std::optional<ArrayLike>;
 
 void setPositions(PythonScene& scene, const ArrayLike& rows, const Which& which) {
-    setAll(scene, rows, "position", 3, which,
-           [](GrainReference grain, const PerGrain& v, py::ssize_t k) { grain.setPosition(v.vector(k)); });
+    setAll(
+        scene, rows, "position", 3, which,
+        [](const GrainReference grain) -> Vec3D { return grain.getPosition(); },
+        [](GrainReference grain, const Vec3D& place) { grain.setPosition(place); });
 }
 /// Velocities may be given in prepare() of a part of the step, too.
 PythonScene& toGiveVelocities(const PythonScene& scene) {
@@ -116,23 +131,26 @@ PythonScene& toGiveVelocities(const PythonScene& scene) {
     return const_cast<PythonScene&>(scene);
 }
 void setVelocities(const PythonScene& scene, const ArrayLike& rows, const Which& which) {
-    setAll(toGiveVelocities(scene), rows, "velocity", 3, which,
-           [](GrainReference grain, const PerGrain& v, py::ssize_t k) { grain.setVelocity(v.vector(k)); });
+    setAll(
+        toGiveVelocities(scene), rows, "velocity", 3, which,
+        [](const GrainReference grain) -> Vec3D { return grain.getVelocity(); },
+        [](GrainReference grain, const Vec3D& velocity) { grain.setVelocity(velocity); });
 }
 void setSpins(const PythonScene& scene, const ArrayLike& rows, const Which& which) {
-    setAll(toGiveVelocities(scene), rows, "spin", 3, which,
-           [](GrainReference grain, const PerGrain& v, py::ssize_t k) {
-               grain.setAngularVelocity(v.vector(k));
-           });
+    setAll(
+        toGiveVelocities(scene), rows, "spin", 3, which,
+        [](const GrainReference grain) -> Vec3D { return grain.getAngularVelocity(); },
+        [](GrainReference grain, const Vec3D& spin) { grain.setAngularVelocity(spin); });
 }
 void setRadii(PythonScene& scene, const ArrayLike& rows, const Which& which) {
-    setAll(scene, rows, "radius", 1, which,
-           [](GrainReference grain, const PerGrain& v, py::ssize_t k) { grain.setRadius(v.number(k)); });
+    setAll(
+        scene, rows, "radius", 1, which, [](const GrainReference grain) { return grain.getRadius(); },
+        [](GrainReference grain, double radius) { grain.setRadius(radius); });
 }
 void setFilms(PythonScene& scene, const ArrayLike& rows, const Which& which) {
-    setAll(scene, rows, "film", 1, which, [](GrainReference grain, const PerGrain& v, py::ssize_t k) {
-        grain.setLiquidVolume(v.number(k));
-    });
+    setAll(
+        scene, rows, "film", 1, which, [](const GrainReference grain) { return grain.getLiquidVolume(); },
+        [](GrainReference grain, double film) { grain.setLiquidVolume(film); });
 }
 
 /// An array that looks into the memory of the scene, which it keeps alive.

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <set>
+
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Particles/GrainFile.h"
 #include "Tools/Python/Bindings.h"
 
@@ -65,7 +68,12 @@ void remove(PythonScene& scene, const ArrayLike& identities) {
     scene.requireNoViews();
     ParticleHandler& grains = scene.scene().particleHandler;
     const std::vector<std::uint32_t> gone = identitiesOf(identities, "identities");
-    for (const std::uint32_t identity : gone) static_cast<void>(grains.getObject(identity));  // all or none
+    std::set<std::uint32_t> all;
+    for (const std::uint32_t identity : gone) {  // all or none
+        static_cast<void>(grains.getObject(identity));
+        if (!all.insert(identity).second)
+            throw InputError(fmt::format("remove_grains(): identities has {} twice.", identity));
+    }
     for (const std::uint32_t identity : gone) grains.removeObject(identity);
 }
 
@@ -109,8 +117,11 @@ void bindGrains(SceneClass& scene) {
             "hold",
             [](PythonScene& s, const ArrayLike& identities, const std::string& axes) {
                 const HeldAxes held = heldAxesNamed(axes);
-                for (const std::uint32_t identity : identitiesOf(identities, "identities"))
-                    s.scene().particleHandler.getObject(identity).setHeldAxes(held);
+                ParticleHandler& grains = s.scene().particleHandler;
+                const std::vector<std::uint32_t> those = identitiesOf(identities, "identities");
+                for (const std::uint32_t identity : those)
+                    static_cast<void>(grains.getObject(identity));  // all or none
+                for (const std::uint32_t identity : those) grains.getObject(identity).setHeldAxes(held);
             },
             py::arg("identities"), py::arg("axes") = "all",
             comment("GrainReference::setHeldAxes",

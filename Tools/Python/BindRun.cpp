@@ -171,7 +171,8 @@ void bindRun(SceneClass& scene) {
         .def_readwrite(
             "remembered", &PythonScene::remembered,
             "Numbers and arrays by name that are kept in restart files: what functions of the driver "
-            "remember from step to step. Give all of them, with their shapes, before the run.")
+            "remember from step to step. Give all of them, with their types and shapes, before the run; rows "
+            "of one dimension may have grown in the file.")
         .def("keep_restart_file", &PythonScene::keepRestartFile, py::arg("interval") = 600.0,
              py::arg("steps") = 0,
              "Keeps NAME-restart.h5: written at the start and the end of the run, at Ctrl-C, whenever the "
@@ -182,6 +183,7 @@ void bindRun(SceneClass& scene) {
             "restart_from",
             [](PythonScene& s, const std::filesystem::path& file) {
                 s.requireNoViews();
+                if (file.empty()) throw InputError("restart_from(): file has no name.");
                 s.scene().restartFrom(file);
             },
             py::arg("file"), comment("Run::restartFrom", "file: its name."))

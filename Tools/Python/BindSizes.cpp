@@ -47,6 +47,7 @@ void bindSizes(py::module_& module) {
         .def(
             "cumulative",
             [](const Sizes& s, double diameter, const std::string& basis) {
+                checkValue("cumulative()", "diameter", diameter, "m", notNegative);
                 return s.cumulative(basisNamed(basis), diameter);
             },
             py::arg("diameter"), py::arg("basis") = "number",
@@ -61,12 +62,15 @@ void bindSizes(py::module_& module) {
             comment("SizeDistribution::quantile",
                     "fraction: 0 to 1; basis: number, length, area, volume or mass. Returns a diameter, m."))
         .def(
-            "radii", [](const Sizes& s, std::size_t grains) { return arrayOf(exactRadii(s, grains)); },
+            "radii",
+            [](const Sizes& s, std::size_t grains) {
+                return arrayOf(withoutPython([&] { return exactRadii(s, grains); }));
+            },
             py::arg("grains"), comment("exactRadii", "grains: how many. Returns N radii, m."))
         .def(
             "random_radii",
             [](const Sizes& s, std::size_t grains, std::uint64_t seed) {
-                return arrayOf(randomRadii(s, grains, seed));
+                return arrayOf(withoutPython([&] { return randomRadii(s, grains, seed); }));
             },
             py::arg("grains"), py::arg("seed") = 1,
             comment("randomRadii", "grains: how many; seed: of the random numbers."))

@@ -1,8 +1,12 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
+#include <functional>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Contacts/SpeciesRegistry.h"
@@ -67,22 +71,53 @@ std::vector<double> takenBy(const NamedSetter& setter, const Values& values) {
     unknownName(fmt::format("field of {}", laws.getName()), snakeCase(name), names);
 }
 
+/// A setter that is to be called, whose values are all given.
+struct PlannedCall {
+    std::string given;                // names of its values
+    std::vector<std::string> fields;  // which it gives values
+    std::function<void()> call;
+};
+
+bool hasWord(std::string_view text, std::string_view word) {
+    const auto isLetter = [&](std::size_t at) {
+        return at < text.size() && std::isalnum(static_cast<unsigned char>(text[at])) != 0;
+    };
+    for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1))
+        if ((at == 0 || !isLetter(at - 1)) && !isLetter(at + word.size())) return true;
+    return false;
+}
+
+/// The fields that a setter gives values; the kernel's tables name them.
+std::vector<std::string> fieldsOf(const NamedSetter& setter, const std::vector<NamedSetter>& all) {
+    if (setter.gives.empty()) return {std::string(setter.name)};
+    std::vector<std::string> found;
+    for (const NamedSetter& field : all)
+        if (field.gives.empty() && hasWord(setter.gives, field.name)) found.emplace_back(field.name);
+    return found;
+}
+
 /// Young's modulus and Poisson's ratio give E* and, with Mindlin, G* of two grains of the material.
-void setElasticConstants(AnyLaws& laws, Values& values) {
+void planElasticConstants(AnyLaws& laws, Values& values, std::vector<PlannedCall>& plan) {
     const auto young = values.find("youngModulus"), poisson = values.find("poissonRatio");
     if (young == values.end() && poisson == values.end()) return;
     if (young == values.end() || poisson == values.end())
         throw InputError("young_modulus and poisson_ratio are given together.");
     if (!laws.has("effectiveElasticModulus")) refuseName(laws, "youngModulus");
-    laws.set("effectiveElasticModulus", computeEffectiveElasticModulus(young->second, poisson->second));
-    if (laws.has("effectiveShearModulus"))
-        laws.set("effectiveShearModulus", computeEffectiveShearModulus(young->second, poisson->second));
+    const bool hasShear = laws.has("effectiveShearModulus");
+    std::vector<std::string> fields{"effectiveElasticModulus"};
+    if (hasShear) fields.emplace_back("effectiveShearModulus");
+    plan.push_back({"young_modulus and poisson_ratio", fields,
+                    [&laws, hasShear, e = young->second, nu = poisson->second] {
+                        laws.set("effectiveElasticModulus", computeEffectiveElasticModulus(e, nu));
+                        if (hasShear) laws.set("effectiveShearModulus", computeEffectiveShearModulus(e, nu));
+                    }});
     values.erase(young), values.erase(poisson);
 }
 
-/// Sets fields, and calls the setters all of whose values are given, those of most values first.
-void setValues(AnyLaws& laws, Values values) {
-    setElasticConstants(laws, values);
+/// The setters all of whose values are given, those of most values first.
+std::vector<PlannedCall> planOf(AnyLaws& laws, Values values) {
+    std::vector<PlannedCall> plan;
+    planElasticConstants(laws, values, plan);
     std::vector<NamedSetter> setters = laws.setters();
     std::ranges::stable_sort(setters, [](const NamedSetter& a, const NamedSetter& b) {
         if (a.values.size() != b.values.size()) return a.values.size() > b.values.size();
@@ -91,12 +126,45 @@ void setValues(AnyLaws& laws, Values values) {
     for (const NamedSetter& setter : setters) {
         const std::vector<double> taken = takenBy(setter, values);
         if (taken.empty()) continue;
-        setter.set(taken);
-        for (const SetterValue& value : setter.values) values.erase(std::string(value.name));
+        std::vector<std::string> names;
+        for (const SetterValue& value : setter.values) {
+            names.push_back(snakeCase(setter.values.size() == 1 ? setter.name : value.name));
+            values.erase(std::string(value.name));
+        }
         values.erase(std::string(setter.name));
         if (setter.values.size() > 1) values.erase("restitutionCoefficient");
+        plan.push_back({fmt::format("{}", fmt::join(names, ", ")), fieldsOf(setter, setters),
+                        [set = setter.set, taken] { set(taken); }});
     }
     if (!values.empty()) refuseName(laws, values.begin()->first);
+    return plan;
+}
+
+/// Of two values that give the same field, one would be lost.
+void refuseContradictions(const AnyLaws& laws, const std::vector<PlannedCall>& plan) {
+    std::map<std::string, std::string> givenBy;
+    for (const PlannedCall& planned : plan)
+        for (const std::string& field : planned.fields)
+            if (const auto [other, isFirst] = givenBy.try_emplace(field, planned.given); !isFirst)
+                throw InputError(fmt::format("{}: {} and {} both give its {}; leave one out.",
+                                             withoutEnding(laws.getName()), other->second, planned.given,
+                                             snakeCase(field)));
+}
+
+/// Sets fields, and calls the setters all of whose values are given. Where one is refused, all are as before.
+void setValues(AnyLaws& laws, const Values& values) {
+    const std::vector<PlannedCall> plan = planOf(laws, values);
+    refuseContradictions(laws, plan);
+    std::vector<std::pair<NamedSetter, double>> before;
+    for (const NamedSetter& setter : laws.setters())
+        if (setter.gives.empty() && setter.get) before.emplace_back(setter, setter.get());
+    try {
+        for (const PlannedCall& planned : plan) planned.call();
+    } catch (...) {
+        for (const auto& [setter, value] : before)
+            if (isSet(value)) setter.set({&value, 1});
+        throw;
+    }
 }
 
 /// law, field, unit, range and value of all that can be set.

@@ -276,6 +276,7 @@ void bindWalls(py::module_& module, SceneClass& scene) {
         .def(
             "keep_forces",
             [](const WallHandle& w, bool keep, const Vec3D& about) {
+                static_cast<void>(checkedVector("Wall", "point of the torque", about, "m"));
                 w.as<Wall>("forces").keepForces(keep, about);
             },
             py::arg("keep") = true, py::arg("about") = Vec3D(0, 0, 0),

@@ -8,6 +8,13 @@ namespace pendular::python {
 
 using SceneClass = py::class_<PythonScene, std::shared_ptr<PythonScene>>;
 
+/// What a function that takes long returns; other threads of Python go on meanwhile.
+template <class Function>
+auto withoutPython(const Function& function) {
+    const py::gil_scoped_release others;
+    return function();
+}
+
 void bindSpecies(py::module_& module, SceneClass& scene);
 void bindSizes(py::module_& module);
 void bindRegions(py::module_& module, SceneClass& scene);

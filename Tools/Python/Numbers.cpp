@@ -70,6 +70,13 @@ bool isTrue(const py::object& given) {
     return answer > 0;
 }
 
+bool isFalse(const py::object& given) {
+    if (!py::isinstance<py::bool_>(given) &&
+        !py::isinstance(given, py::object(py::dtype::of<bool>().attr("type"))))
+        return false;
+    return !isTrue(given);
+}
+
 Vec3D vectorOf(py::handle given, std::string_view name) {
     const Doubles numbers = numbersOf<Doubles>(given, name, "three numbers");
     if (numbers.ndim() != 1 || numbers.size() != 3) refuseGiven(given, name, "three numbers");

@@ -52,6 +52,8 @@ Of valueOf(const Given<Of>& given, std::string_view name, std::string_view what)
 
 /// Whether Python takes it as true.
 bool isTrue(const py::object& given);
+/// Whether it is the truth value False, also numpy's; None and 0 are not.
+bool isFalse(const py::object& given);
 
 /// Three numbers. Throws InputError, with the name, for anything else.
 Vec3D vectorOf(py::handle given, std::string_view name = "A vector");

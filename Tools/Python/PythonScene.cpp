@@ -1,6 +1,7 @@
 #include "Tools/Python/PythonScene.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +49,14 @@ public:
 
 }  // namespace
 
-std::shared_ptr<PythonScene> makeScene() { return std::make_shared<AnySimulation>(); }
+/// The copy of a process (fork) drops its scenes, but does not destroy them: it would complete files of the
+/// other one.
+std::shared_ptr<PythonScene> ofThisProcess(std::unique_ptr<PythonScene> made) {
+    return {made.release(), [process = getpid()](PythonScene* dropped) {
+                if (getpid() == process) delete dropped;
+            }};
+}
+std::shared_ptr<PythonScene> makeScene() { return ofThisProcess(std::make_unique<AnySimulation>()); }
 
 std::shared_ptr<py::function> PythonScene::keep(py::function function) {
     auto kept = std::make_unique<py::function>(std::move(function));
@@ -231,7 +239,7 @@ void PythonScene::callDue() {
         if (!std::exchange(isGathered, true)) running->gather();  // functions are due on all ranks alike
         const py::function function = calls[k].function;
         const py::object answer = function(self);
-        if (answer.is(py::bool_(false))) running->requestPause();
+        if (isFalse(answer)) running->requestPause();
         requireDroppedViews();
     }
 }
@@ -337,10 +345,32 @@ void PythonScene::visitRemembered(StateArchive& archive) {
     visitNumbers(archive, remembered, "remembered");
 }
 
+/// What was read, as the type of what is there: a number, or an array of whole numbers.
+static py::object alike(const py::handle there, const Doubles& shape, std::vector<double>&& read,
+                        const std::string& name) {
+    const py::object type = py::array::ensure(there).dtype();
+    if (shape.ndim() == 0) {
+        const py::object number = py::array(arrayOf(std::move(read))).attr("astype")(type).attr("item")(0);
+        return py::isinstance<py::array>(there) ? py::object(py::array::ensure(number)) : number;
+    }
+    const auto count = static_cast<py::ssize_t>(read.size());
+    const py::object numbers = py::array(arrayOf(std::move(read))).attr("astype")(type);
+    if (count == shape.size()) return numbers.attr("reshape")(shape.attr("shape"));
+    if (shape.ndim() > 1)
+        throw InputError(fmt::format(
+            "{} has {} numbers in the restart file, and {} in the scene; give it the shape that it had.",
+            name, count, shape.size()));
+    return numbers;  // a row that has grown
+}
+
 void visitNumbers(StateArchive& archive, py::dict kept, const std::string& whole) {
+    constexpr std::string_view list = "names of remembered";
     std::map<std::string, Doubles> arrays;
+    std::string names;
     for (const auto& [key, value] : kept) {
         const std::string name = py::str(key);
+        if (name.empty() || name.find('/') != std::string::npos || name == list)
+            throw InputError(fmt::format("{}['{}']: a name must have a letter, and no /.", whole, name));
         Doubles numbers = Doubles::ensure(value);
         if (!numbers) {
             PyErr_Clear();
@@ -348,14 +378,16 @@ void visitNumbers(StateArchive& archive, py::dict kept, const std::string& whole
         }
         arrays.emplace(name, std::move(numbers));
     }
+    for (const auto& [name, numbers] : arrays) names += (names.empty() ? "" : ", ") + name;
+    if (archive.isWriting() || archive.holds(list)) archive.same(list, names);
     for (auto& [name, numbers] : arrays) {
         std::vector<double> column(numbers.data(), numbers.data() + numbers.size());
         archive.column<double>(name, column);
         if (!archive.isReading()) continue;
-        if (numbers.ndim() == 0) kept[py::str(name)] = column.empty() ? 0.0 : column.front();
-        else if (static_cast<py::ssize_t>(column.size()) == numbers.size())
-            kept[py::str(name)] = arrayOf(std::move(column)).attr("reshape")(numbers.attr("shape"));
-        else kept[py::str(name)] = arrayOf(std::move(column));
+        archive.require(numbers.ndim() > 0 || column.size() == 1, name, "is not one number");
+        const py::str key(name);
+        kept[key] =
+            alike(py::object(kept[key]), numbers, std::move(column), fmt::format("{}['{}']", whole, name));
     }
 }
 

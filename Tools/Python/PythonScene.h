@@ -229,7 +229,10 @@ public:
     /// What is left of the run is written while the parts of Python are still there.
     ~Hosted() override { this->completeLeftRun(); }
     [[nodiscard]] Scene& scene() final { return *this; }
-    void setGrainsAreDiscs() final { this->speciesHandler.setGrainsAreDiscs(); }
+    void setGrainsAreDiscs() final {
+        this->requireSetUp("discs");
+        this->speciesHandler.setGrainsAreDiscs();
+    }
 
     void actionsBeforeTimeStep() final { beforeStep(); }
     void actionsAfterTimeStep() final { afterStep(); }
@@ -239,6 +242,8 @@ public:
 
 /// A scene of any species that are chosen by name.
 std::shared_ptr<PythonScene> makeScene();
+/// Owned by Python until this process drops it.
+std::shared_ptr<PythonScene> ofThisProcess(std::unique_ptr<PythonScene> made);
 /// A scene of superquadrics of one species type. Throws InputError, with the names that there are.
 std::shared_ptr<PythonScene> makeShapedScene(std::string_view type);
 std::vector<std::string_view> shapedSpecies();

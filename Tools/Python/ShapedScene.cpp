@@ -93,7 +93,7 @@ std::vector<std::string_view> shapedSpecies() {
 std::shared_ptr<PythonScene> makeShapedScene(std::string_view type) {
     std::shared_ptr<PythonScene> made;
     ShapedSpecies::forEach([&]<class S>() {
-        if (canonicalLawName(type) == S::name) made = std::make_shared<ShapedScene<S>>();
+        if (canonicalLawName(type) == S::name) made = ofThisProcess(std::make_unique<ShapedScene<S>>());
     });
     if (!made) unknownName("species of superquadrics", type, shapedSpecies());
     return made;

@@ -32,6 +32,10 @@ class Scene(_kernel.Scene):
         species: the material of their surfaces; lowest, highest: m, corners of the box. lid: without it not the last
         plane. forces: they are kept, as by Wall.keep_forces().
         """
+        corners = np.array([lowest, highest], dtype=float)
+        if corners.shape != (2, 3) or not np.all(np.isfinite(corners)) or not np.all(corners[0] < corners[1]):
+            raise _kernel.InputError(f"add_box(): lowest = {list(lowest)}, highest = {list(highest)}; they must be three "
+                                     "numbers (m) each, and the lowest below the highest.")
         walls = []
         for axis in range(3):
             outward = np.zeros(3)
