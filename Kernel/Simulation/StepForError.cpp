@@ -162,7 +162,7 @@ struct CollisionErrors {
 class Collisions {
 public:
     Collisions(Scene& of, const Meeting& pair, double atSpeed) : scene(of), meeting(pair), speed(atSpeed) {
-        for (const double degrees : {0.0, 15.0, 45.0}) {
+        for (const double degrees : {0.0, 15.0, 45.0, 75.0}) {
             const double angle = degrees * std::numbers::pi / 180;
             Angle at{.normal = speed * std::cos(angle), .slip = speed * std::sin(angle)};
             const double step = meeting.halfPeriod / stepsOfExact;

@@ -30,12 +30,13 @@ struct StepForError {
 /// speed (m/s; that of estimateOverlaps() if it is not given), at set-up, when species, walls and grains are
 /// there.
 ///
-/// Two grains meet in a scene of their own with the laws and the integrator of this one, head-on and at 15
-/// and 45 degrees, for each two species and each species with each wall: those sizes that part soonest. Each
-/// is computed with 16 beginnings of the touch within a step and four lengths of the step (at whole numbers
-/// of steps a contact ends in a step as it begins), and once with 2000 steps a contact, which stands for the
-/// exact one. Liquid that moves is not there: these collisions are dry; grains of rigid bodies meet as
-/// single ones.
+/// Two grains meet in a scene of their own with the laws and the integrator of this one, head-on and at 15,
+/// 45 and 75 degrees, for each two species and each species with each wall: those sizes that part soonest.
+/// Each is computed with 16 beginnings of the touch within a step and four lengths of the step (at whole
+/// numbers of steps a contact ends in a step as it begins), and once with 2000 steps a contact, which stands
+/// for the exact one. Liquid that moves is not there: these collisions are dry. Grains of rigid bodies meet
+/// as single ones, which part sooner: a body of solid spheres is no lighter at any contact than one of them
+/// alone.
 ///
 /// A bed has more: at most 0.9 over the highest frequency of two grains, up to which figures of poured beds
 /// and drums were right to 1 % with the default integrator (Kernel/Motion/README.md), half of that with
@@ -44,7 +45,8 @@ struct StepForError {
 ///
 /// Scene::stepForError() calls it, and sees to it that the scene has not begun: it shares its laws.
 /// Throws InputError where the scene has no grains, a number is out of its range, grains are
-/// superquadrics or discs, or no step of a fifth to a thousandth of a contact is as exact as asked.
+/// superquadrics or discs, a rigid body was given less mass than that, or no step of a fifth to a thousandth
+/// of a contact is as exact as asked.
 [[nodiscard]] StepForError findStepForError(Scene& scene, double error, std::optional<double> speed);
 
 }  // namespace pendular

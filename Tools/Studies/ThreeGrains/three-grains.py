@@ -4,8 +4,9 @@
     three-grains.py [--output FOLDER] [--angle DEGREES] [--volume R^3] [--refinements N]
 
 R = gamma = 1. The energy is that of the free surface less cos(theta) times the wetted area; pair force is the attraction
-along one side of the triangle, dE/dS/3. Beside it the energies of the same liquid in three bridges, and in two. Writes
-FOLDER/three-grains.csv. Needs `evolver` (apt install evolver-nox).
+along one side of the triangle, dE/dS/3. Beside it the energies of the same liquid in three bridges, and in two, and the lowest
+eigenvalue of the second variation at this volume, for shifts along the surface's normal (gamma/R^2): below 0 the bridge is
+a saddle, which falls apart at the least push. Writes FOLDER/three-grains.csv. Needs `evolver` (apt install evolver-nox).
 
 The shape (K. A. Brakke, Exp. Math. 1 (1992) 141) is that of the free surface alone. Areas on a sphere and the liquid's volume
 below them are integrals along its contact line (Stokes): of a unit sphere with the axis n towards the middle of the three,
@@ -14,6 +15,7 @@ local coordinates (x, y, z) with z along n, and W = x dy - y dx,
 the latter as the flux of a third of the place, d being the distance of the centre from the middle.
 """
 import argparse
+import re
 import subprocess
 import tempfile
 from pathlib import Path
@@ -124,20 +126,38 @@ def evolver_file(gap, degrees, volume, grains):
     return "".join(text)
 
 
-def relax(gap, degrees, volume, refinements=1, grains=3):
-    """Rows of facets, energy, pressure and volume: at 384 facets (256 of two grains), and after each refinement."""
-    steps = "g 10; r; g 60; r; g 60; M 2; U; " + "; ".join(["{g 150}", "V", "{g 250}"])
-    show = 'printf "RESULT %d %.12f %.12f %.12f\\n", facet_count, total_energy, liquid.pressure, liquid.value'
-    commands = [steps, show] + [x for _ in range(refinements) for x in ("r; {g 200}; V; {g 300}", show)]
+STEPS = "g 10; r; g 60; r; g 60; M 2; U; {g 150}; V; {g 250}"  # to 384 facets (256 of two grains)
+SHOW = 'printf "RESULT %d %.12f %.12f %.12f\\n", facet_count, total_energy, liquid.pressure, liquid.value'
+
+
+def evolve(gap, degrees, volume, grains, commands):
+    """What Evolver says."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "three.fe"
         path.write_text(evolver_file(gap, degrees, volume, grains))
-        done = subprocess.run(["evolver", "-x", str(path)], input="\n".join(commands + ["q"]) + "\n",
+        done = subprocess.run(["evolver", "-x", str(path)], input="\n".join([STEPS, *commands, "q"]) + "\n",
                               capture_output=True, text=True, timeout=1200)
-    rows = [line.split("RESULT", 1)[1].split() for line in done.stdout.splitlines() if line.startswith("RESULT")]
+    return done.stdout + done.stderr
+
+
+def relax(gap, degrees, volume, refinements=1, grains=3):
+    """Rows of facets, energy, pressure and volume: at 384 facets (256 of two grains), and after each refinement."""
+    said = evolve(gap, degrees, volume, grains,
+                  [SHOW] + [x for _ in range(refinements) for x in ("r; {g 200}; V; {g 300}", SHOW)])
+    rows = [line.split("RESULT", 1)[1].split() for line in said.splitlines() if line.startswith("RESULT")]
     if len(rows) != refinements + 1:
-        raise RuntimeError(f"evolver did not come through:\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
+        raise RuntimeError(f"evolver did not come through:\n{said[-2000:]}")
     return [(int(n), float(e), float(p), float(v)) for n, e, p, v in rows]
+
+
+def eigenvalues(gap, degrees, volume, count=4, refine=""):
+    """The lowest of the second variation where the first one is zero: by Newton's steps, of a bridge that may be a saddle."""
+    newton = ["U", "linear_metric", *3 * ["hessian_seek"], *3 * ["hessian"]]
+    said = evolve(gap, degrees, volume, 3, [refine, *newton, f"ritz(-5,{count})"])
+    found = re.findall(r"^ +\d+\. +(-?\d+\.\d{8,}) *$", said[said.rfind("Eigencounts"):], re.MULTILINE)
+    if len(found) != count:
+        raise RuntimeError(f"evolver did not come through:\n{said[-2000:]}")
+    return sorted(map(float, found))
 
 
 def main():
@@ -147,7 +167,8 @@ def main():
     options.add_argument("--volume", type=float, default=0.6, help="R^3, of the liquid")
     options.add_argument("--refinements", type=int, default=1, help="beyond 384 facets, each four times as many")
     given = options.parse_args()
-    lines = ["theta_deg,volume,gap,energy,pressure,pair_force,energy_of_three_bridges,energy_of_two_bridges\n"]
+    lines = ["theta_deg,volume,gap,energy,pressure,pair_force,energy_of_three_bridges,energy_of_two_bridges,"
+             "lowest_eigenvalue\n"]
 
     def extrapolated(rows):
         """Quadratic elements: the error falls by 16 with each refinement."""
@@ -160,7 +181,7 @@ def main():
         apart = [count * extrapolated(relax(gap, given.angle, given.volume / count, given.refinements, grains=2))
                  for count in (3, 2)]
         lines.append(f"{given.angle:g},{given.volume:g},{gap},{e:.6f},{rows[-1][2]:.5f},{f:.4f},"
-                     f"{apart[0]:.6f},{apart[1]:.6f}\n")
+                     f"{apart[0]:.6f},{apart[1]:.6f},{eigenvalues(gap, given.angle, given.volume)[0]:.3f}\n")
         print(lines[-1], end="", flush=True)
     (given.output / "three-grains.csv").write_text("".join(lines))
 
