@@ -45,10 +45,7 @@ public:
         settings->atSetUp = [this] {
             boundaryHandler.settle();
             requireOnePlane(this->particleHandler);
-            // Whether the driver has forces of its own: the function below says that it has not.
-            MercuryForcedGrain::Load unused;
-            if (!this->particleHandler.isEmpty())
-                computeExternalForces(MercuryForcedGrain(*this->particleHandler.begin(), unused));
+            findOwnForces();
         };
     }
 
@@ -202,6 +199,18 @@ public:
 private:
     void takeOver(const MercuryRestart& state, const std::filesystem::path& file);
     void addGrainsOf(const std::vector<GrainRow>& rows);
+    /// Asks for forces once: the function above says that the driver has none. Where there are no grains yet
+    /// one of a driver has nothing to look at, and throws.
+    void findOwnForces() {
+        const bool isEmpty = this->particleHandler.isEmpty();
+        MercuryForcedGrain::Load unused;
+        try {
+            const std::uint32_t first = isEmpty ? 0 : (*this->particleHandler.begin()).getId();
+            computeExternalForces({GrainReference(this->particleHandler, first), unused});
+        } catch (const InputError&) {
+            if (!isEmpty) throw;
+        }
+    }
     static void requireTwoOrThree(const char* what, int dimensions) {
         if (dimensions != 2 && dimensions != 3)
             throw InputError(
@@ -288,3 +297,5 @@ public:
 inline constexpr pendular::LevelThatEnds ERROR, FATAL;
 /// The logger of main(); in a scene it is the scene's.
 inline pendular::MercuryLogger logger;
+
+#include "Kernel/Mercury/MercuryChute.h"  // a class derived from Mercury3D

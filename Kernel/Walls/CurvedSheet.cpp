@@ -160,10 +160,11 @@ void CurvedSheet::findInBody(const Vector<double>& centre, double reach, std::sp
     points[0] = {toVector(normal), nearest.distance - thickness, {0, 0, 0}};
 }
 
-bool CurvedSheet::isAtEdge(const Parameters& parameters) const {
-    for (std::size_t k = 0; k < 2; ++k)
-        if (parameters[k] == formula.low[k] || parameters[k] == formula.high[k]) return true;
-    return false;
+/// Whether the surface ends there: the way to the nearest point is not across it.
+bool CurvedSheet::isBeside(const Nearest& nearest, const Vector<double>& centre) {
+    const Vec3D way = nearest.jet.point - toEigen(centre);
+    return std::max(std::abs(way.dot(nearest.jet.u.normalized())),
+                    std::abs(way.dot(nearest.jet.v.normalized()))) > 1e-6 * way.norm();
 }
 
 /// Into the body, or to the other side of a surface.
@@ -172,7 +173,7 @@ bool CurvedSheet::isCrossedInBody(const Vector<double>& from, const Vector<doubl
     const Nearest before = nearestTo(toEigen(from), reach), after = nearestTo(toEigen(to), reach);
     if (thickness > 0) return !(before.distance < thickness) && after.distance < thickness;
     if (!std::isfinite(before.distance) || !std::isfinite(after.distance)) return false;
-    if (isAtEdge(before.at) || isAtEdge(after.at)) return false;
+    if (isBeside(before, from) || isBeside(after, to)) return false;
     const auto side = [](const Nearest& nearest, const Vector<double>& centre) {
         return nearest.normal().dot(toEigen(centre) - nearest.jet.point);
     };

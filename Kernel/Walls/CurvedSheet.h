@@ -57,7 +57,7 @@ private:
     [[nodiscard]] Nearest nearestTo(const Vec3D& centre, double reach) const;
     [[nodiscard]] Nearest descend(const Vec3D& centre, Parameters from) const;
     [[nodiscard]] Parameters newtonStep(const SurfaceJet& jet, const Vec3D& way, const Parameters& at) const;
-    [[nodiscard]] bool isAtEdge(const Parameters& parameters) const;
+    [[nodiscard]] static bool isBeside(const Nearest& nearest, const Vector<double>& centre);
     void addTube(std::vector<Polygon>& polygons) const;
 
     SurfaceFormula formula;

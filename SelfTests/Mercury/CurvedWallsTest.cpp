@@ -128,7 +128,7 @@ TEST(MercuryPrograms, nurbsWallIsFilled) {
     }
     EXPECT_EQ(dpm.particleHandler.getSize(), 5u);
     dpm.setTimeStep(0.001);
-    dpm.setTimeMax(20.0);  // 2 s there, when they still roll
+    dpm.setTimeMax(10.0);  // 2 s there, when they still roll
     dpm.setDomain({-1, 0, 0}, {1, 1, 1});
     dpm.solve();
     // The lowest one lies between both: at y = 0.9, and 1.1 from the axis. It sinks by what five grains press

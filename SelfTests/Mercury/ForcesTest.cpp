@@ -269,6 +269,21 @@ TEST(MercuryForces, goOnFromARestartFile) {
     EXPECT_EQ(a.getAngularVelocity(), b.getAngularVelocity());
 }
 
+// Also where grains come later: a driver's part acts, and that of a scene without forces does not.
+TEST(MercuryForces, areFoundWithoutGrains) {
+    OnASpring later;
+    later.particleHandler.clear();
+    later.setIntegrator(integrators::adamsMoulton);
+    EXPECT_TRUE(contains(refusal([&] { later.solve(); }), "forces of the driver"));
+    DPMBase empty;
+    empty.setIntegrator(integrators::adamsMoulton);
+    LinearViscoelasticSpecies species;
+    species.setDensity(1000), species.setStiffness(1000);
+    empty.speciesHandler.copyAndAddObject(species);
+    empty.setTimeStep(1e-3), empty.setTimeMax(0), empty.setQuiet();
+    EXPECT_EQ(refusal([&] { empty.solve(); }), "");
+}
+
 TEST(MercuryForces, areRefusedWhereTheyAreNoNumberOrDoNotFit) {
     struct NotFinite : OnASpring {
         void computeExternalForces(MercuryForcedGrain p) override { p->addForce(Vec3D(0, std::nan(""), 0)); }

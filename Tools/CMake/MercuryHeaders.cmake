@@ -3,7 +3,7 @@
 
 # Writes them into a folder. Left alone where nothing has changed, so that nothing is compiled again.
 function(pendular_write_mercury_headers folder)
-    set(names Mercury3D Mercury2D DPMBase Logger GeneralDefine
+    set(names Mercury3D Mercury2D DPMBase Chute Logger GeneralDefine
         Particles/SphericalParticle Particles/BaseParticle Particles/LiquidFilmParticle
         Walls/InfiniteWall Walls/IntersectionOfWalls Walls/AxisymmetricIntersectionOfWalls Walls/TriangleWall
         Boundaries/PeriodicBoundary Boundaries/CubeInsertionBoundary Boundaries/DeletionBoundary
