@@ -12,6 +12,7 @@
 #include "Kernel/Output/Hdf5Frame.h"
 #include "Kernel/Output/Hdf5Series.h"
 #include "Kernel/Output/ParaViewSeries.h"
+#include "Kernel/Output/ShapeFields.h"
 #include "Tools/Snapshot/Compose.h"
 #include "Tools/View/Columns.h"
 
@@ -229,8 +230,11 @@ struct Content : snapshot::Frame {
     PolyData shapes, droplets;
 };
 
-Content readHdf5(const std::filesystem::path& file) {
+constexpr std::size_t mostShapes = 20'000;  // whose surfaces are made: 10 kB each
+
+Content readHdf5(const std::filesystem::path& file, const FrameWish& wish) {
     SceneFrame frame = readHdf5Frame(file);
+    if (wish.surfaces && frame.grains.points.size() <= mostShapes) frame.shapes = shapeSurfaces(frame.grains);
     const auto given = [](std::optional<PolyData>& part) { return std::move(part).value_or(PolyData{}); };
     return {{std::move(frame.grains), given(frame.contacts), given(frame.walls)},
             given(frame.shapes),
@@ -250,7 +254,7 @@ Content readParaView(const std::filesystem::path& file, const FrameWish& wish) {
 Content read(const FrameEntry& frame, const FrameWish& wish) {
     if (frame.kind == FrameEntry::Kind::Restart) return {snapshot::readRestartState(frame.file), {}, {}};
     Content content =
-        frame.kind == FrameEntry::Kind::Hdf5 ? readHdf5(frame.file) : readParaView(frame.file, wish);
+        frame.kind == FrameEntry::Kind::Hdf5 ? readHdf5(frame.file, wish) : readParaView(frame.file, wish);
     if (std::isfinite(frame.time)) content.grains.time = frame.time;
     snapshot::checkFrame(content, frame.file);
     return content;
