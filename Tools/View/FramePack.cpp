@@ -70,9 +70,9 @@ Part partOf(const PolyData& data, const std::string& wanted) {
     return {*field, component};
 }
 
-Json describeFields(const PolyData& grains) {
+Json describeFields(const std::vector<PolyDataField>& given) {
     Json fields = Json::array();
-    for (const PolyDataField& field : grains.pointFields) {
+    for (const PolyDataField& field : given) {
         if (field.components == 9) continue;
         const Part part{field};
         double lowest = INFINITY, highest = -INFINITY;
@@ -117,6 +117,18 @@ std::vector<float> wallColumn(const PolyData& walls, const Vector<double>& origi
     std::vector<float> column;
     forEachTriangle(walls, [&](std::size_t, const auto& corners) {
         for (const Vector<double>& p : corners) put(column, p - origin);
+    });
+    return column;
+}
+
+/// Of each triangle; nothing where the walls have no such field.
+std::vector<float> wallValueColumn(const PolyData& walls, const std::string& field) {
+    std::vector<float> column;
+    const PolyDataField* const values = walls.cellField(field);
+    if (!values) return column;
+    const Part part{*values};
+    forEachTriangle(walls, [&](std::size_t polygon, const auto&) {
+        column.push_back(static_cast<float>(part.at(polygon)));
     });
     return column;
 }
@@ -290,7 +302,8 @@ std::string packFrame(const FrameEntry& entry, const FrameWish& wish) {
               {"origin", list(origin)},
               {"low", list(limits.low - origin)},
               {"high", list(limits.high - origin)},
-              {"fields", describeFields(frame.grains)}};
+              {"fields", describeFields(frame.grains.pointFields)},
+              {"wallFields", describeFields(frame.walls.cellFields)}};
     const std::string field = fieldOf(wish, frame.grains);
     head["field"] = field;
     const auto rows = rowsByIdentity(frame.grains);
@@ -300,6 +313,7 @@ std::string packFrame(const FrameEntry& entry, const FrameWish& wish) {
     columns.add("grains", grainColumn(frame.grains, origin, isShape));
     columns.add("value", valueColumn(frame.grains, field));
     columns.add("walls", wallColumn(frame.walls, origin));
+    if (!wish.wallField.empty()) columns.add("wallValue", wallValueColumn(frame.walls, wish.wallField));
     if (wish.bridges) columns.add("bridges", bridgeColumn(frame, rows, origin));
     if (wish.contacts) columns.add("contacts", contactColumn(frame.contacts, origin));
     if (wish.droplets) columns.add("droplets", dropletColumn(frame.droplets, origin));
