@@ -34,7 +34,7 @@ import pendular
 printed = io.StringIO()
 with contextlib.redirect_stdout(printed):
     pendular.view("/tmp")
-address = printed.getvalue().strip()
+address = printed.getvalue().strip().replace("localhost", "127.0.0.1")  # a bare system knows no names
 cookie = urllib.request.urlopen(address).headers["Set-Cookie"].split(";")[0]
 def ask(path):
     return urllib.request.urlopen(urllib.request.Request(address.split("?")[0] + path, headers={"Cookie": cookie})).read()

@@ -21,15 +21,9 @@ namespace {
 constexpr std::size_t mostPoints = std::size_t{1} << 28;  // as FieldGrid has them
 const std::array<std::string, 3> aroundAxis{"r", "theta", "z"};
 
-std::size_t countOf(const FieldImage& image) {
-    std::size_t count = 1;
-    for (const std::vector<double>& places : image.places) {
-        if (places.empty() || places.size() > mostPoints)
-            throw std::runtime_error("has no points, or too many");
-        count *= places.size();
-        if (count > mostPoints) throw std::runtime_error("has too many points");
-    }
-    return count;
+void requireFew(std::size_t points) {
+    if (points == 0 || points > mostPoints)
+        throw std::runtime_error("has no points, or more than a grid has");
 }
 
 template <class Number>
@@ -62,16 +56,23 @@ private:
     void takeGrid(const vtk::Tag& tag) {
         const auto extent = wordsIn<long long>(tag, "WholeExtent", 6);
         const auto origin = wordsIn<double>(tag, "Origin", 3), spacing = wordsIn<double>(tag, "Spacing", 3);
+        count = 1;
+        std::array<std::size_t, 3> counts{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const long long last = extent[2 * axis + 1];
             if (extent[2 * axis] != 0 || last < 0 || last >= static_cast<long long>(mostPoints) ||
                 !std::isfinite(origin[axis]) || !(spacing[axis] > 0))
                 throw std::runtime_error("has an extent, origin or spacing that no grid has");
+            counts[axis] = static_cast<std::size_t>(last) + 1;
+            count *= counts[axis];
+            requireFew(count);
+        }
+        arrays.requireRoom(count * sizeof(float));  // before places are made
+        for (std::size_t axis = 0; axis < 3; ++axis) {
             image.places[axis].clear();
-            for (long long k = 0; k <= last; ++k)
+            for (std::size_t k = 0; k < counts[axis]; ++k)
                 image.places[axis].push_back(origin[axis] + static_cast<double>(k) * spacing[axis]);
         }
-        count = countOf(image);
         image.strides = {1, image.places[0].size(), image.places[0].size() * image.places[1].size()};
         hasGrid = true;
     }
@@ -112,7 +113,11 @@ FieldImage readHdf5(const std::filesystem::path& path, const std::string& field)
         image.places[axis].clear();
         for (std::size_t k = 0; k < column.size(); ++k) image.places[axis].push_back(column.at(k));
     }
-    const std::size_t count = countOf(image);
+    std::size_t count = 1;
+    for (const std::vector<double>& places : image.places) {
+        requireFew(places.size());
+        requireFew(count *= places.size());
+    }
     image.strides = {image.places[1].size() * image.places[2].size(), image.places[2].size(), 1};
     for (const std::string& name : file.names()) {
         const auto shape = name.starts_with("fields/") ? file.shapeOf(name) : std::nullopt;

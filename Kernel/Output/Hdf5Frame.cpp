@@ -7,11 +7,11 @@
 #include <numeric>
 #include <unordered_map>
 #include <utility>
+#include <variant>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Files/FileName.h"
 #include "Kernel/Output/Hdf5Columns.h"
-#include "Kernel/Output/ShapeFields.h"
 
 namespace pendular {
 
@@ -71,21 +71,26 @@ PolyData pointsOf(Group group) {
     return data;
 }
 
+/// One whole number to a row; nothing where a field has others.
+const std::vector<std::int32_t>* wholesOf(const PolyDataField* field) {
+    return field && field->components == 1 ? std::get_if<std::vector<std::int32_t>>(&field->numbers)
+                                           : nullptr;
+}
+
 PolyData linesOf(Group group, const PolyData& grains) {
-    const PolyDataField* const identity = grains.pointField("identity");
-    std::unordered_map<std::int64_t, std::size_t> rows;
-    for (std::size_t k = 0; identity && identity->components == 1 && k < identity->size(); ++k)
-        rows[static_cast<std::int64_t>(identity->at(k))] = k;
+    std::unordered_map<std::int32_t, std::size_t> rows;
+    if (const auto* const identities = wholesOf(grains.pointField("identity")))
+        for (std::size_t k = 0; k < identities->size(); ++k) rows[(*identities)[k]] = k;
     PolyData data;
     data.kind = PolyData::Cells::Lines;
     const std::vector<Vector<double>> branches = group.takePoints("branch_m");
     data.cellFields = group.rest(branches.size());
-    const PolyDataField* const first = data.cellField("particle1");
-    if (!first || first->components != 1) group.refuse("no particle1");
+    const auto* const first = wholesOf(data.cellField("particle1"));
+    if (!first) group.refuse("no particle1");
     for (std::size_t k = 0; k < branches.size(); ++k) {
-        const auto row = rows.find(static_cast<std::int64_t>(first->at(k)));
+        const auto row = rows.find((*first)[k]);
         if (row == rows.end())
-            group.refuse(fmt::format("a contact of a grain {} that is not there", first->at(k)));
+            group.refuse(fmt::format("a contact of a grain {} that is not there", (*first)[k]));
         const Vector<double> begin = grains.points[row->second];
         for (const Vector<double>& point : {begin, begin + branches[k]}) {
             data.corners.push_back(static_cast<std::int32_t>(data.points.size()));
@@ -124,7 +129,6 @@ SceneFrame readHdf5Frame(const std::filesystem::path& path) {
         frame.contacts = linesOf(std::move(contacts), frame.grains);
     if (Group walls(file, "walls"); !walls.isEmpty()) frame.walls = polygonsOf(std::move(walls));
     if (Group droplets(file, "droplets"); !droplets.isEmpty()) frame.droplets = pointsOf(std::move(droplets));
-    frame.shapes = shapeSurfaces(frame.grains);
     return frame;
 }
 

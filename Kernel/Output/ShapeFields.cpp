@@ -95,11 +95,10 @@ std::optional<PolyData> shapeSurfaces(const PolyData& points) {
     PolyData data;
     data.kind = PolyData::Cells::Polygons;
     std::vector<std::int32_t> identity;
+    const auto* const identities = std::get_if<std::vector<std::int32_t>>(&own->numbers);
     const std::vector<Vector<double>> directions = normals();
-    for (std::size_t k = 0; k < points.points.size(); ++k) {
-        const auto exponent = [](double n) {
-            return std::clamp(std::isnan(n) ? 2 : static_cast<int>(n), 2, 8);
-        };
+    for (std::size_t k = 0; identities && k < points.points.size(); ++k) {
+        const auto exponent = [](double n) { return n >= 2 ? static_cast<int>(std::min(n, 8.0)) : 2; };
         const Superquadric shape{lengths->at(3 * k), lengths->at(3 * k + 1), lengths->at(3 * k + 2),
                                  exponent(first->at(k)), exponent(second->at(k))};
         const bool isBall = shape.isEllipsoid() && shape.a == shape.b && shape.b == shape.c;
@@ -115,7 +114,7 @@ std::optional<PolyData> shapeSurfaces(const PolyData& points) {
             data.points.push_back(points.points[k] + Vector<double>{row(0), row(1), row(2)});
         }
         addPolygons(data, place);
-        identity.resize(data.ends.size(), static_cast<std::int32_t>(own->at(k)));
+        identity.resize(data.ends.size(), (*identities)[k]);
     }
     data.cellFields = {{"identity", 1, std::move(identity)}};
     return data;

@@ -118,14 +118,18 @@ public:
     template <class Number>
     [[nodiscard]] std::vector<Number> numbers(const Tag& tag, std::size_t count) {
         const std::size_t offset = countIn(tag, "offset");
-        // Deflate packs 1032 bytes into one at most, and no two arrays share their bytes.
-        unpacked += count * sizeof(Number);
-        if (offset > appended.size() || unpacked / 1032 > appended.size())
-            throw std::runtime_error("ends too early");
+        unpacked += count * sizeof(Number);  // no two arrays share their bytes
+        if (offset > appended.size()) throw std::runtime_error("ends too early");
+        requireRoom(unpacked);
         const std::string bytes = decompressBlocks(appended.substr(offset), count * sizeof(Number));
         std::vector<Number> read(count);
         if (count > 0) std::memcpy(read.data(), bytes.data(), bytes.size());
         return read;
+    }
+
+    /// Throws unless the file can have so many bytes of numbers: deflate packs 1032 bytes into one at most.
+    void requireRoom(std::size_t bytes) const {
+        if (bytes / 1032 > appended.size()) throw std::runtime_error("ends too early");
     }
 
 private:

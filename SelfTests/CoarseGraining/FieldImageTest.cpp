@@ -90,6 +90,7 @@ TEST(FieldImage, thatIsNoneIsRefused) {
     for (const auto& [from, to, words] :
          {std::tuple{"WholeExtent=\"0 4", "WholeExtent=\"0 400000000", "no grid"},
           {"WholeExtent=\"0 4", "WholeExtent=\"0 5", "wrong size"},
+          {"WholeExtent=\"0 4", "WholeExtent=\"0 20000000", "early"},
           {"WholeExtent=\"0 4", "WholeExtent=\"-1 4", "no grid"},
           {"Spacing=\"", "Spacing=\"-", "no grid"},
           {"Origin=\"", "Origin=\"x", "3 numbers"},

@@ -1,6 +1,7 @@
 #include "Kernel/Output/FieldFile.h"
 #include "Kernel/Output/Hdf5Frame.h"
 #include "Kernel/Output/Hdf5Output.h"
+#include "Kernel/Output/ShapeFields.h"
 #include "SelfTests/Fuzz/EditedState.h"
 #include "SelfTests/Fuzz/Target.h"
 #include "SelfTests/Support/TestFolder.h"
@@ -72,7 +73,7 @@ Target hdf5Frame() {
                 try {
                     const SceneFrame frame = readHdf5Frame(path);
                     requireWhole(frame.grains);
-                    for (const auto& part : {frame.contacts, frame.walls, frame.shapes})
+                    for (const auto& part : {frame.contacts, frame.walls, shapeSurfaces(frame.grains)})
                         if (part) requireWhole(*part);
                     return true;
                 } catch (const InputError&) {

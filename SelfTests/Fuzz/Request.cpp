@@ -66,6 +66,7 @@ Target request() {
             [] {
                 return std::vector<std::string>{
                     seed("GET", "/api/runs", "\n"), seed("GET", "/api/run", "id=run\n\n"),
+                    seed("GET", "/api/map", "id=run\nname=a.pvd\nframe=0\nnormal=1\n\n"),
                     seed("GET", "/api/table", "id=run\nname=table.csv\nfrom=10\n\n")};
             },
             take};

@@ -8,6 +8,7 @@
 #include "Kernel/Output/Hdf5Frame.h"
 #include "Kernel/Output/Hdf5Output.h"
 #include "Kernel/Output/ParaViewOutput.h"
+#include "Kernel/Output/ShapeFields.h"
 #include "Kernel/Species/Laws.h"
 #include "Kernel/State/Hdf5File.h"
 #include "SelfTests/Scenes/FewGrains.h"
@@ -99,7 +100,7 @@ TEST_F(ReadFrames, areThoseForParaView) {
     expectSameFields(grains.pointFields, frame.grains.pointFields);
 
     ASSERT_TRUE(frame.contacts && frame.walls && frame.droplets);
-    EXPECT_FALSE(frame.shapes);
+    EXPECT_FALSE(shapeSurfaces(frame.grains));
     ASSERT_GT(contacts.ends.size(), 6u);
     ASSERT_EQ(frame.contacts->ends.size(), contacts.ends.size());
     expectSameFields(contacts.cellFields, frame.contacts->cellFields);
@@ -144,21 +145,21 @@ TEST_F(ReadFrames, haveTheShapesOfSuperquadrics) {
     scene.addOutput(Hdf5Output());
     scene.setQuiet(), scene.setTimeMax(1e-5);
     scene.solve();
-    const SceneFrame frame = readHdf5Frame(pathOf("fields", scene.getNumberOfTimeSteps()) + ".h5");
+    const std::optional<PolyData> surfaces =
+        shapeSurfaces(readHdf5Frame(pathOf("fields", scene.getNumberOfTimeSteps()) + ".h5").grains);
     const PolyData shapes = readPolyData(pathOf("shapes", scene.getNumberOfTimeSteps()) + ".vtp");
-    ASSERT_TRUE(frame.shapes);
+    ASSERT_TRUE(surfaces);
     ASSERT_FALSE(shapes.points.empty());
-    ASSERT_EQ(3 * frame.shapes->points.size(), 2 * shapes.points.size());
-    for (std::size_t k = 0; k < frame.shapes->points.size(); ++k)
-        expectNear(frame.shapes->points[k], shapes.points[k], 1e-5 * 2e-3);
-    ASSERT_EQ(3 * frame.shapes->ends.size(), 2 * shapes.ends.size());
-    EXPECT_TRUE(
-        std::ranges::equal(frame.shapes->ends, std::span(shapes.ends).first(frame.shapes->ends.size())));
-    const auto identityOf = [](const PolyData& surfaces, std::size_t k) {
-        return surfaces.cellField("identity")->at(k);
+    ASSERT_EQ(3 * surfaces->points.size(), 2 * shapes.points.size());
+    for (std::size_t k = 0; k < surfaces->points.size(); ++k)
+        expectNear(surfaces->points[k], shapes.points[k], 1e-5 * 2e-3);
+    ASSERT_EQ(3 * surfaces->ends.size(), 2 * shapes.ends.size());
+    EXPECT_TRUE(std::ranges::equal(surfaces->ends, std::span(shapes.ends).first(surfaces->ends.size())));
+    const auto identityOf = [](const PolyData& data, std::size_t k) {
+        return data.cellField("identity")->at(k);
     };
-    for (std::size_t k = 0; k < frame.shapes->ends.size(); ++k)
-        EXPECT_EQ(identityOf(*frame.shapes, k), identityOf(shapes, k));
+    for (std::size_t k = 0; k < surfaces->ends.size(); ++k)
+        EXPECT_EQ(identityOf(*surfaces, k), identityOf(shapes, k));
 }
 
 TEST_F(ReadFrames, areRefusedInOneSentence) {

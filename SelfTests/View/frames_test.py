@@ -30,14 +30,16 @@ def test_hdf5_frames_are_as_those_for_paraview(serve, write_frames):
     server = serve()
     assert [run["id"] for run in server.get("runs")["runs"]] and server.get("run", id="hdf5/run")["frames"] == [0, 0.5]
     for field in ("velocity_m_per_s", "velocity_m_per_s.z", "radius_m"):
-        plain = columns(server, "frame", id="plain/run", frame=0, field=field, contacts=1)
-        hdf5 = columns(server, "frame", id="hdf5/run", frame=1, field=field, contacts=1)
+        plain = columns(server, "frame", id="plain/run", frame=0, field=field, contacts=1, wallField="wear_depth_m")
+        hdf5 = columns(server, "frame", id="hdf5/run", frame=1, field=field, contacts=1, wallField="wear_depth_m")
         assert plain["droplets"] == pytest.approx((1.5e-3, -2e-3, 1.5e-3, 3e-4))  # from the middle of the grains
-        for name in ("value", "walls", "bridges", "contacts", "droplets", "origin", "low", "high"):
+        assert plain["wallValue"] == pytest.approx([0, 0, 2e-6, 2e-6]) and [field["name"] for field in plain["wallFields"]] == ["wall", "wear_depth_m"]
+        for name in ("value", "walls", "wallValue", "bridges", "contacts", "droplets", "origin", "low", "high"):
             assert hdf5[name] == pytest.approx(plain[name], rel=1e-6, abs=1e-9), name
         assert [abs(x) for x in hdf5["grains"]] == pytest.approx([abs(x) for x in plain["grains"]], rel=1e-6, abs=1e-9)
         assert hdf5["time"] == 0.5 and hdf5["grains"][51] > 0 > plain["grains"][51]  # the cube is a ball there
-    assert "droplets" not in columns(server, "frame", id="hdf5/run", frame=0, droplets=0)
+    assert not {"droplets", "wallValue"} & set(columns(server, "frame", id="hdf5/run", frame=0, droplets=0))
+    assert columns(server, "frame", id="hdf5/run", frame=0, wallField="none")["wallValue"] == ()
     for of, row in (("grains", 8), ("contacts", 0)):
         plain = {field["name"]: field["value"] for field in server.get("row", id="plain/run", frame=0, of=of, row=row)["fields"]}
         assert plain == {field["name"]: field["value"] for field in server.get("row", id="hdf5/run", frame=0, of=of, row=row)["fields"]}

@@ -1,7 +1,10 @@
 """The page as a person uses it: the list, a run with its charts, the form, comparing, the keyboard; and what axe says of it.
 PENDULAR_VIEW_PICTURE=FILE keeps a picture of the page."""
+import functools
+import http.server
 import os
 import pathlib
+import threading
 import time
 
 import pytest
@@ -247,3 +250,23 @@ def test_hdf5_frames_are_shown(serve, write_frames):
         assert page.js("return pendular.viewer.shown") == 1 and page.js("return pendular.viewer.scene.frame.grains.length") == 4 * 13
         assert page.js("return pendular.viewer.when.textContent") == "0.5 s, 2 of 2"
         assert page.problems() == []
+
+
+def test_a_frame_of_a_notebook(serve, write_frames, tmp_path):
+    """As pendular.view() shows it: in a frame of a page of another port of localhost; a page of another host gets nothing."""
+    write_frames("picture", "wet")
+    server = serve("--frame-of", "http://localhost:*")
+    (tmp_path / "notebook.html").write_text(f'<!doctype html><iframe width="900" height="700" src="{server.address}&amp;run=wet%2Frun"></iframe>')
+    notebook = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(http.server.SimpleHTTPRequestHandler, directory=tmp_path))
+    threading.Thread(target=notebook.serve_forever, daemon=True).start()
+    with browser.page() as page:
+        for host, is_shown in (("localhost", True), ("127.0.0.1", False)):
+            page.driver.get(f"http://{host}:{notebook.server_port}/notebook.html")
+            page.driver.switch_to.frame(0)
+            if is_shown:
+                page.wait("window.pendular?.viewer?.loads > 0")
+                assert page.js("return location.hash") == "#run=wet%2Frun"
+            else:
+                time.sleep(2)
+                assert page.js("return window.pendular === undefined")
+    notebook.shutdown()

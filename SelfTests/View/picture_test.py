@@ -105,6 +105,16 @@ def test_the_picture(scene):
     assert near(without, background) and not near(colour_at(scene, under), background, 8)
     assert near(colour_at(scene, grain), before)
 
+    # A wall coloured by its wear: the left half has none, the right one 2 um; it lets little through then.
+    scene("v.loads = 0; v.wallSelect.value = 'wear_depth_m'; v.wallSelect.dispatchEvent(new Event('change'))")
+    scene.page.wait("pendular.viewer.loads > 0")
+    left, right = colour_at(scene, [-7e-3, 4e-3, -5e-3]), colour_at(scene, [7e-3, 4e-3, -5e-3])
+    assert left[2] > 1.3 * left[1] and right[0] > 2 * right[2] and right[1] > 2 * right[2], (left, right)
+    assert scene("return [v.wallLegend.high.textContent, v.wallLegend.unit.textContent]") == ["2e-6", "m"]
+    scene("v.loads = 0; v.wallSelect.value = ''; v.wallSelect.dispatchEvent(new Event('change'))")
+    scene.page.wait("pendular.viewer.loads > 0")
+    assert near(colour_at(scene, grain), before)
+
     # The cut takes away what is on its other side; a range that is fixed changes the colours.
     scene("s.camera.from(0, 0); s.look.walls = false; s.look.clip = {axis: 'x', share: 0.5, keepsHigh: false}")
     assert near(colour_at(scene, [3e-3, 0, 3e-3]), background)

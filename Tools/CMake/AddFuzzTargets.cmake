@@ -23,7 +23,7 @@ endif()
 # would make the tests of the same build slower. Not by -fsanitize=fuzzer-no-link, which precompiled headers do not bear.
 set(coverage -fsanitize-coverage=inline-8bit-counters,indirect-calls,trace-cmp,pc-table)
 set(readerSources ${kernelSources})
-list(FILTER readerSources INCLUDE REGEX "/Kernel/(Boundaries|CoarseGraining|Files|Insertion|Output|Particles|Shapes|Simulation|Species|State|Walls)/")
+list(FILTER readerSources INCLUDE REGEX "/Kernel/((Boundaries|Files|Insertion|Output|Particles|Shapes|Simulation|Species|State|Walls)/|CoarseGraining/FieldImage)")
 list(FILTER readerSources EXCLUDE REGEX "/BridgeChoice|/Adhesion/")
 set_property(SOURCE ${readerSources} ${sources} APPEND PROPERTY COMPILE_OPTIONS ${coverage})
 

@@ -133,6 +133,7 @@ Reply Api::frame(const Request& request, const RunFiles& run) {
                 describeRow(frames[number], request.asked("of") == "contacts", wholeOf(request, "row"))};
     FrameWish wish;
     wish.field = request.asked("field"), wish.orRadius = request.asked("orRadius") == "1";
+    wish.wallField = request.asked("wallField");
     wish.contacts = request.asked("contacts") == "1", wish.bridges = request.asked("bridges") != "0";
     wish.droplets = request.asked("droplets") != "0", wish.origin = originOf(request.asked("origin"));
     return {200, "application/octet-stream", packFrame(frames[number], wish)};

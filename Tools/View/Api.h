@@ -15,7 +15,7 @@ namespace pendular::view {
 ///
 /// GET   api/runs                        overviews (RunState.h), newest first
 ///       api/run?id=                     details
-///       api/frame?id=&frame=&field=&orRadius=&bridges=&contacts=&droplets=&origin=x,y,z
+///       api/frame?id=&frame=&field=&orRadius=&wallField=&bridges=&contacts=&droplets=&origin=x,y,z
 ///                                       a frame (FramePack.h)
 ///       api/map?id=&name=&frame=&field=&normal=&slice=                 a field (FieldMaps.h)
 ///       api/row?id=&frame=&of=grains|contacts&row=                     fields of a grain or a contact

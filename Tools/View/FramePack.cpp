@@ -12,6 +12,7 @@
 #include "Kernel/Output/Hdf5Frame.h"
 #include "Kernel/Output/Hdf5Series.h"
 #include "Kernel/Output/ParaViewSeries.h"
+#include "Kernel/Output/ShapeFields.h"
 #include "Tools/Snapshot/Compose.h"
 #include "Tools/View/Columns.h"
 
@@ -69,9 +70,9 @@ Part partOf(const PolyData& data, const std::string& wanted) {
     return {*field, component};
 }
 
-Json describeFields(const PolyData& grains) {
+Json describeFields(const std::vector<PolyDataField>& given) {
     Json fields = Json::array();
-    for (const PolyDataField& field : grains.pointFields) {
+    for (const PolyDataField& field : given) {
         if (field.components == 9) continue;
         const Part part{field};
         double lowest = INFINITY, highest = -INFINITY;
@@ -116,6 +117,18 @@ std::vector<float> wallColumn(const PolyData& walls, const Vector<double>& origi
     std::vector<float> column;
     forEachTriangle(walls, [&](std::size_t, const auto& corners) {
         for (const Vector<double>& p : corners) put(column, p - origin);
+    });
+    return column;
+}
+
+/// Of each triangle; nothing where the walls have no such field.
+std::vector<float> wallValueColumn(const PolyData& walls, const std::string& field) {
+    std::vector<float> column;
+    const PolyDataField* const values = walls.cellField(field);
+    if (!values) return column;
+    const Part part{*values};
+    forEachTriangle(walls, [&](std::size_t polygon, const auto&) {
+        column.push_back(static_cast<float>(part.at(polygon)));
     });
     return column;
 }
@@ -229,8 +242,11 @@ struct Content : snapshot::Frame {
     PolyData shapes, droplets;
 };
 
-Content readHdf5(const std::filesystem::path& file) {
+constexpr std::size_t mostShapes = 20'000;  // whose surfaces are made: 10 kB each
+
+Content readHdf5(const std::filesystem::path& file, const FrameWish& wish) {
     SceneFrame frame = readHdf5Frame(file);
+    if (wish.surfaces && frame.grains.points.size() <= mostShapes) frame.shapes = shapeSurfaces(frame.grains);
     const auto given = [](std::optional<PolyData>& part) { return std::move(part).value_or(PolyData{}); };
     return {{std::move(frame.grains), given(frame.contacts), given(frame.walls)},
             given(frame.shapes),
@@ -250,7 +266,7 @@ Content readParaView(const std::filesystem::path& file, const FrameWish& wish) {
 Content read(const FrameEntry& frame, const FrameWish& wish) {
     if (frame.kind == FrameEntry::Kind::Restart) return {snapshot::readRestartState(frame.file), {}, {}};
     Content content =
-        frame.kind == FrameEntry::Kind::Hdf5 ? readHdf5(frame.file) : readParaView(frame.file, wish);
+        frame.kind == FrameEntry::Kind::Hdf5 ? readHdf5(frame.file, wish) : readParaView(frame.file, wish);
     if (std::isfinite(frame.time)) content.grains.time = frame.time;
     snapshot::checkFrame(content, frame.file);
     return content;
@@ -286,7 +302,8 @@ std::string packFrame(const FrameEntry& entry, const FrameWish& wish) {
               {"origin", list(origin)},
               {"low", list(limits.low - origin)},
               {"high", list(limits.high - origin)},
-              {"fields", describeFields(frame.grains)}};
+              {"fields", describeFields(frame.grains.pointFields)},
+              {"wallFields", describeFields(frame.walls.cellFields)}};
     const std::string field = fieldOf(wish, frame.grains);
     head["field"] = field;
     const auto rows = rowsByIdentity(frame.grains);
@@ -296,6 +313,7 @@ std::string packFrame(const FrameEntry& entry, const FrameWish& wish) {
     columns.add("grains", grainColumn(frame.grains, origin, isShape));
     columns.add("value", valueColumn(frame.grains, field));
     columns.add("walls", wallColumn(frame.walls, origin));
+    if (!wish.wallField.empty()) columns.add("wallValue", wallValueColumn(frame.walls, wish.wallField));
     if (wish.bridges) columns.add("bridges", bridgeColumn(frame, rows, origin));
     if (wish.contacts) columns.add("contacts", contactColumn(frame.contacts, origin));
     if (wish.droplets) columns.add("droplets", dropletColumn(frame.droplets, origin));

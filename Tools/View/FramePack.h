@@ -26,20 +26,23 @@ std::vector<FrameEntry> framesOf(const RunFiles& run);
 
 /// What of a frame is wanted.
 struct FrameWish {
-    std::string field;  // that colours the grains; "velocity_m_per_s.z" is a part
+    std::string field;      // that colours the grains; "velocity_m_per_s.z" is a part
+    std::string wallField;  // that colours the walls; empty: none
     bool contacts = false, bridges = true;
     bool droplets = true, surfaces = true;  // surfaces: of walls and of grains that are no spheres
     bool orRadius = false;                  // by the radius where there is no such field
     std::optional<Vector<double>> origin;   // m; nothing: the middle of this frame's grains
 };
 
-/// A frame as the page takes it (Columns.h). The text tells time, origin, limits and fields. The columns:
+/// A frame as the page takes it (Columns.h). The text tells time, origin, limits, and the fields of grains
+/// and walls. The columns:
 ///
 /// grains     x, y, z (m, from the origin), radius (m; negative: drawn by its shape) of each grain
 /// value      of the field of the wish
 /// bridges    x, y, z, radius, x, y, z, 0: cylinders of the bridges' volumes
 /// contacts   x, y, z, force (N), x, y, z, 0, in the order of the file
 /// walls      x, y, z: triangles
+/// wallValue  of the wall field of the wish, where the walls have it, of each triangle
 /// droplets   x, y, z, radius
 /// shapes     x, y, z, row of the grain: triangles of grains that are no spheres
 ///

@@ -87,12 +87,19 @@ PolyData cube(const Place& at, double half, std::int32_t identity) {
     return data;
 }
 
+/// Of two halves, the right one worn.
 PolyData square(double half, double z) {
     PolyData data;
     data.kind = PolyData::Cells::Polygons;
-    data.points = {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}};
-    data.corners = {0, 1, 2, 3}, data.ends = {4};
-    data.cellFields = {{"wall", 1, Wholes{0}}};
+    for (const double left : {-half, 0.0}) {
+        for (const Place& corner :
+             {Place{left, -half, z}, {left + half, -half, z}, {left + half, half, z}, {left, half, z}}) {
+            data.corners.push_back(static_cast<std::int32_t>(data.points.size()));
+            data.points.push_back(corner);
+        }
+        data.ends.push_back(static_cast<std::int32_t>(data.corners.size()));
+    }
+    data.cellFields = {{"wall", 1, Wholes{0, 0}}, {"wear_depth_m", 1, std::vector<double>{0, 2e-6}}};
     return data;
 }
 

@@ -18,6 +18,16 @@ export class Legend {
     }
 }
 
+/** The lowest and the highest of some values, which may be NaN. */
+export function rangeOf(values) {
+    let lowest = Infinity, highest = -Infinity;
+    for (const value of values) {
+        if (value < lowest) lowest = value;
+        if (value > highest) highest = value;
+    }
+    return lowest <= highest ? [lowest, highest] : [0, 1];
+}
+
 /** Two fields for the ends of the colours; `of(values)` gives those that hold. */
 export class Range {
     constructor(onChange) {
@@ -27,13 +37,7 @@ export class Range {
 
     /** Those that were given, else the lowest and the highest of these values. */
     of(values) {
-        let [lowest, highest] = this.fixed ?? [Infinity, -Infinity];
-        if (!this.fixed)
-            for (const value of values) {
-                if (value < lowest) lowest = value;
-                if (value > highest) highest = value;
-            }
-        return lowest <= highest ? [lowest, highest] : [0, 1];
+        return this.fixed ?? rangeOf(values);
     }
 
     #take() {

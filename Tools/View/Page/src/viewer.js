@@ -1,5 +1,5 @@
 import { get, getFrame } from "./api.js";
-import { Legend, Range } from "./legend.js";
+import { Legend, Range, rangeOf } from "./legend.js";
 import { colourMapNames } from "./scene/colours.js";
 import { Scene } from "./scene/Scene.js";
 import { fieldLabel, labelled, make, number, tell, Teller } from "./text.js";
@@ -12,6 +12,7 @@ const longestDrawing = 300;  // ms: what takes longer is drawn coarsely while th
 export class Viewer {
     fields = [];
     field = defaultField;
+    wallField = "";
     shown = -1;
     times = [];
     follows = true;
@@ -153,7 +154,7 @@ export class Viewer {
     /** The frame, with the field that it has been asked for. */
     async #load(frame) {
         if (!this.scene) return;
-        const { scene } = this, words = { id: this.id, frame, field: this.field, orRadius: 1, contacts: scene.look.contacts ? 1 : 0, bridges: scene.look.bridges ? 1 : 0, droplets: scene.look.droplets ? 1 : 0 };
+        const { scene } = this, words = { id: this.id, frame, field: this.field, orRadius: 1, contacts: scene.look.contacts ? 1 : 0, bridges: scene.look.bridges ? 1 : 0, droplets: scene.look.droplets ? 1 : 0, wallField: this.wallField };
         if (this.origin) words.origin = this.origin.join(",");
         const next = await getFrame(words);
         const first = this.fields.length === 0;
@@ -161,9 +162,9 @@ export class Viewer {
         this.fields = next.fields;
         this.field = next.field;  // the wished one, if there is such a field
         if (this.isOver) return;
-        if (first) this.#offerFields();
         this.shown = frame;
         scene.show(next);
+        if (first) this.#offerFields();
         if (first) scene.lookAtAll();
         this.#takeRange();
         const begin = performance.now();
@@ -188,6 +189,10 @@ export class Viewer {
     #takeRange() {
         this.scene.look.range = this.range.of(this.scene.frame.value);
         this.legend.show(this.scene.look.map, this.scene.look.range, this.#describe()?.unit ?? "");
+        const { wallValue, wallFields } = this.scene.frame;
+        this.scene.look.wallRange = wallValue?.length > 0 ? rangeOf(wallValue) : null;
+        this.wallLegend.element.hidden = !this.scene.look.wallRange;
+        if (this.scene.look.wallRange) this.wallLegend.show(this.scene.look.map, this.scene.look.wallRange, wallFields.find(({ name }) => name === this.wallField).unit);
     }
 
     #offerFields() {
@@ -197,6 +202,9 @@ export class Viewer {
         });
         this.fieldSelect.replaceChildren(...options);
         this.fieldSelect.value = this.field;
+        const ofWalls = this.scene.frame.wallFields.filter(({ name }) => name !== "wall");
+        this.wallSelect.replaceChildren(new Option("one colour", ""), ...ofWalls.map((field) => new Option(fieldLabel(field), field.name)));
+        this.wallChoice.hidden = ofWalls.length === 0;
     }
 
     #takeBackground() {
@@ -212,6 +220,10 @@ export class Viewer {
             else this.redraw();
         } });
         this.fieldSelect = make("select", { change: () => { this.field = this.fieldSelect.value; this.ask(this.shown); } });
+        this.wallSelect = make("select", { change: () => { this.wallField = this.wallSelect.value; this.ask(this.shown); } });
+        this.wallLegend = new Legend();
+        this.wallLegend.element.hidden = true;
+        this.wallChoice = make("div", { hidden: true }, labelled("Colour walls by", this.wallSelect), this.wallLegend.element);
         this.legend = new Legend();
         this.range = new Range(() => { this.#takeRange(); this.redraw(); });
         const map = make("select", { change: () => { this.scene.look.map = map.value; this.#takeRange(); this.redraw(); } }, ...colourMapNames.map((name) => new Option(name)));
@@ -224,7 +236,7 @@ export class Viewer {
         return make("div", { class: "panel controls" },
             labelled("Colour by", this.fieldSelect), this.legend.element, this.range.element, labelled("Colours", map),
             make("label", {}, check("grains", true), "grains"), make("label", {}, check("bridges", true, true), "bridges"),
-            make("label", {}, check("contacts", false, true), "contacts by force"), make("label", {}, check("droplets", true, true), "droplets of sprays"), make("label", {}, check("walls", true), "walls"),
+            make("label", {}, check("contacts", false, true), "contacts by force"), make("label", {}, check("droplets", true, true), "droplets of sprays"), make("label", {}, check("walls", true), "walls"), this.wallChoice,
             axis, share, make("label", {}, side, "keep the other side"),
             make("div", { class: "buttons" }, ...Object.keys(presets).map((name) => make("button", { click: () => this.preset(name) }, name)), make("button", { click: () => this.reset() }, "all")),
             make("div", { class: "buttons" }, make("button", { click: () => this.savePicture() }, "Save picture"), make("button", { click: () => this.saveFilm() }, "Save film")),

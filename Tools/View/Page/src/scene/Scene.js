@@ -8,7 +8,7 @@ import * as shaders from "./shaders.js";
 /** Draws a frame into a canvas by WebGL2. Throws Error where the browser has none. */
 export class Scene {
     camera = new Camera();
-    look = { map: "viridis", range: [0, 1], grains: true, bridges: true, contacts: false, droplets: true, walls: true, clip: null, background: [1, 1, 1] };
+    look = { map: "viridis", range: [0, 1], grains: true, bridges: true, contacts: false, droplets: true, walls: true, wallRange: null, clip: null, background: [1, 1, 1] };
     frame = null;
 
     constructor(canvas) {
@@ -31,7 +31,7 @@ export class Scene {
         frame.contactRods = frame.contacts ? rodsOfContacts(frame) : new Float32Array();
         this.#fill(this.textures.contacts, frame.contactRods, 4);
         if (frame.droplets) this.#fill(this.textures.droplets, frame.droplets, 4);
-        this.#upload(this.surfaces.walls, withRow(frame.walls), frame.walls.length / 3);
+        this.#upload(this.surfaces.walls, withValues(frame.walls, frame.wallValue), frame.walls.length / 3);
         this.#upload(this.surfaces.shapes, frame.shapes, frame.shapes.length / 4);
     }
 
@@ -107,7 +107,7 @@ export class Scene {
         gl.enable(gl.BLEND);
         gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
         gl.depthMask(false);
-        this.#triangles(this.surfaces.walls, false, 0.22);
+        this.#triangles(this.surfaces.walls, false, this.look.wallRange ? 0.85 : 0.22, this.look.wallRange);
         gl.depthMask(true);
         gl.disable(gl.BLEND);
     }
@@ -173,9 +173,10 @@ export class Scene {
         gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
     }
 
-    #triangles(surface, areGrains, opacity) {
+    #triangles(surface, areGrains, opacity, valueRange = null) {
         if (surface.corners === 0) return;
-        const { gl } = this, places = this.#use("triangles", this.textures.grains);
+        const { gl } = this, places = this.#use("triangles", this.textures.grains, valueRange ?? this.look.range);
+        gl.uniform1i(places.hasValues, valueRange ? 1 : 0);
         gl.uniform1i(places.areGrains, areGrains ? 1 : 0);
         gl.uniform1f(places.opacity, opacity);
         gl.uniform1f(places.middle, this.camera.distance);
@@ -249,10 +250,13 @@ export class Scene {
     }
 }
 
-/** Triangles' corners with a fourth number, which walls do not use. */
-function withRow(walls) {
+/** Triangles' corners with a fourth number, that of their triangle. */
+function withValues(walls, values) {
     const result = new Float32Array((walls.length / 3) * 4);
-    for (let i = 0; i < walls.length / 3; ++i) result.set(walls.subarray(3 * i, 3 * i + 3), 4 * i);
+    for (let i = 0; i < walls.length / 3; ++i) {
+        result.set(walls.subarray(3 * i, 3 * i + 3), 4 * i);
+        result[4 * i + 3] = values?.[Math.floor(i / 3)] ?? 0;
+    }
     return result;
 }
 

@@ -123,16 +123,16 @@ void main() {
 }`,
 };
 
-/** Triangles: walls in one colour that lets through, and surfaces of grains in the colour of their grain. */
+/** Triangles: walls in one colour that lets through, or by a value, and surfaces of grains in the colour of their grain. */
 export const triangles = {
     vertex: head + corner + `
-uniform bool areGrains;
-layout(location = 0) in vec4 place;    // m, and the row of the grain
+uniform bool areGrains, hasValues;
+layout(location = 0) in vec4 place;    // m, and the row of the grain, or the value of a wall
 out vec3 colour, at;
 void main() {
     at = (view * vec4(place.xyz, 1)).xyz;
     bool hidden = areGrains && isHidden(fetch(numbers, int(place.w)).xyz);
-    colour = areGrains ? colourOf(fetch(values, int(place.w)).r) : vec3(0.5, 0.56, 0.66);
+    colour = areGrains ? colourOf(fetch(values, int(place.w)).r) : hasValues ? colourOf(place.w) : vec3(0.5, 0.56, 0.66);
     gl_Position = hidden ? nowhere : projection * vec4(at, 1);
 }`,
     fragment: () => head + light + `
