@@ -137,7 +137,7 @@ def test_numbers_that_are_none(ask):
 def test_discs_are_a_matter_of_the_set_up():
     scene, _ = scene_of()
     scene.run(steps=1)
-    with pytest.raises(pendular.InputError, match="set-up"):
+    with pytest.raises(pendular.InputError, match="before the run starts"):
         scene.set_grains_are_discs()
 
 
@@ -174,6 +174,7 @@ def test_names_of_what_is_remembered(there):
 def test_names_that_no_file_can_have():
     for name in ("", "a/b"):
         scene = remembering(**{name: 1})
+        scene.initialise()
         with pytest.raises(pendular.InputError, match="a name must have"):
             scene.write_restart("r.h5")
 
