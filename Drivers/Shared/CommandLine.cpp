@@ -44,6 +44,8 @@ void addRunOptions(CLI::App& app, RunOptions& o, const std::string& files, const
             ->capture_default_str();
     };
     addInterval("--paraview-interval-s", o.paraViewInterval, "frames for ParaView", ".pvd");
+    app.add_flag("--paraview-parts", o.paraViewParts,
+                 "frames for ParaView in parts, of which each rank (mpirun) writes its own, .pvtp with .vtp");
     addInterval("--hdf5-interval-s", o.hdf5Interval, "frames for h5py and MATLAB", "-fields.h5");
     addInterval("--energy-interval-s", o.energyInterval, "rows of the energy by mechanism", "-energy.csv",
                 "none, and no account is kept");

@@ -53,7 +53,8 @@ void RunOptions::apply(Scene& scene, const std::string& run) const {
     applyToAny(scene, run);
     if (output.empty()) return;
     scene.addOutput(RunSummary());
-    if (paraViewInterval > 0) scene.addOutput(ParaViewOutput().withInterval(paraViewInterval));
+    if (paraViewInterval > 0)
+        scene.addOutput(ParaViewOutput().withInterval(paraViewInterval).withParts(paraViewParts));
     if (hdf5Interval > 0) scene.addOutput(Hdf5Output().withInterval(hdf5Interval));
     if (energyInterval > 0) scene.addOutput(EnergyFile(energyInterval));
     if (wallForceInterval > 0) scene.addOutput(WallForceFile(wallForceInterval));

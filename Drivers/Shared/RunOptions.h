@@ -19,6 +19,7 @@ struct RunOptions {
     std::string wallTime{};        // [[hours:]minutes:]seconds; empty: no limit
     bool quiet = false;
     double paraViewInterval = 0;   // s; 0: no files for ParaView
+    bool paraViewParts = false;    // on several ranks, one of each
     double hdf5Interval = 0;       // s; 0: no HDF5 files of fields
     double energyInterval = 0;     // s; 0: no ledger of the energy
     double wallForceInterval = 0;  // s; 0: no forces on walls

@@ -99,6 +99,7 @@ void ContactEvents::finish() {
 
 void ContactEvents::gather(const AllRanks& ranks) {
     if (!listening) return;
+    ownBefore = events;
     for (std::vector<ContactEvent>* const list : {&events, &early}) {
         *list = ranks.gather(*list);
         std::ranges::stable_sort(*list, {}, contactOf);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "Kernel/Contacts/ContactEvent.h"
@@ -67,6 +68,8 @@ public:
     /// first one goes on with it, and the others forget it.
     void gather(const AllRanks& ranks);
     void leaveToFirstRank();
+    /// Each has the events of its last step again that it had heard itself.
+    void keepOwn() { events = std::exchange(ownBefore, {}); }
     void visitState(StateArchive& archive);
 
 private:
@@ -84,6 +87,7 @@ private:
     std::vector<double> startsOfColumns;
     std::vector<BlockState> states;  // of a bucket before the step
     std::vector<ContactEvent> events, early;
+    std::vector<ContactEvent> ownBefore;  // events of the step that this rank has heard, when it got all
     std::vector<ContactChange> changesOfStep;
     ContactEventCounts sums;
 };

@@ -83,17 +83,44 @@ void ContactSystem::distribute(Grains& grains, RememberedContacts& remembered, d
 }
 
 void ContactSystem::gather(Grains& grains) {
-    RememberedContacts remembered;
-    remembered.take(contacts, grains.identity, threads);
-    for (const std::uint32_t place : std::exchange(passed, {})) remembered.goOn(place, {});
+    RememberedContacts remembered = takeRemembered(grains);
+    gatherGrains(grains, remembered, GatheredOn::AllRanks);
+}
+
+void ContactSystem::gatherGrains(Grains& grains, RememberedContacts& remembered, GatheredOn where) {
     gatherCounts();
     ContactMigration migration(remembered, contacts.memory, grains);
-    sharing->gather(grains, migration.luggage(sharing->rank()));
+    sharing->gather(grains, migration.luggage(sharing->rank()), where);
+    if (sharing->areDistributed()) return;  // still: it has sent its own
     const auto [all, unequal] = migration.file();
     sharing->countHeldTwice(all, unequal);
     listAgain(grains, remembered);
     listedOnRanks(grains);
     findWallPoints(grains, 0);  // the forces on walls are those of all ranks already
+}
+
+void ContactSystem::withAllOnFirst(Grains& grains, const std::function<void()>& look) {
+    RememberedContacts remembered = takeRemembered(grains);
+    gatherGrains(grains, remembered, GatheredOn::FirstRank);
+    if (sharing->rank() == 0) {
+        look();
+        remembered = takeRemembered(grains);
+        sharing->dropOthers(grains);
+    } else {
+        leaveCountsToFirstRank();
+    }
+    contactEvents.keepOwn();
+    distribute(grains, remembered, 0);
+    listAgain(grains, remembered);
+    listedOnRanks(grains);
+    findWallPoints(grains, 0);
+}
+
+RememberedContacts ContactSystem::takeRemembered(const Grains& grains) {
+    RememberedContacts remembered;
+    remembered.take(contacts, grains.identity, threads);
+    for (const std::uint32_t place : std::exchange(passed, {})) remembered.goOn(place, {});
+    return remembered;
 }
 
 /// All know what all have seen, until they go on counting (distribute()).
@@ -181,9 +208,7 @@ bool ContactSystem::lastsThroughChange(const Grains& grains, const Bucket& bucke
 }
 
 void ContactSystem::listAgain(Grains& grains, bool keepsBridges, double reach, bool shares) {
-    RememberedContacts remembered;
-    remembered.take(contacts, grains.identity, threads);
-    for (const std::uint32_t place : std::exchange(passed, {})) remembered.goOn(place, {});
+    RememberedContacts remembered = takeRemembered(grains);
     const bool areShared = sharing && (shares || sharing->areDistributed());
     if (areShared) distribute(grains, remembered, reach);
     listAgain(grains, remembered, keepsBridges, reach);

@@ -27,6 +27,7 @@ namespace pendular {
 
 class GrainSharing;
 class RememberedContacts;
+enum class GatheredOn;
 
 /// How many contacts of a scene there are.
 struct ContactCounts {
@@ -48,6 +49,9 @@ public:
     void share(GrainSharing* with);
     /// All grains and contacts come to all ranks, until refresh() distributes them again.
     void gather(Grains& grains);
+    /// They come to the first rank alone, which calls the function and drops them again; the others keep
+    /// theirs, and wait for it.
+    void withAllOnFirst(Grains& grains, const std::function<void()>& look);
     /// What all ranks that share the scene know together; each contact counts on the rank that owns its body
     /// 1.
     [[nodiscard]] const AllRanks& ranks() const { return allRanks; }
@@ -340,6 +344,9 @@ private:
     void listedOnRanks(Grains& grains);
     /// Grains go to the ranks that own them, with what their contacts remember.
     void distribute(Grains& grains, RememberedContacts& remembered, double reach);
+    /// With what the contacts remember.
+    void gatherGrains(Grains& grains, RememberedContacts& remembered, GatheredOn where);
+    [[nodiscard]] RememberedContacts takeRemembered(const Grains& grains);
     void gatherCounts();
     void leaveCountsToFirstRank();
     double endContact(Grains& grains, std::uint32_t contact);

@@ -42,6 +42,10 @@ void makeRoomFor(const fs::path& file) {
 
 std::FILE* createFile(const fs::path& file) {
     if (isSilentRank()) return std::fopen("/dev/null", "wbe");
+    return createFileOfRank(file);
+}
+
+std::FILE* createFileOfRank(const fs::path& file) {
     makeRoomFor(file);
     return std::fopen(file.c_str(), "wbxe");  // x: fails where a link has come meanwhile
 }

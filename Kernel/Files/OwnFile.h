@@ -21,6 +21,9 @@ void makeRoomFor(const std::filesystem::path& file);
 /// Throws InputError as requireOwnIfThere().
 [[nodiscard]] std::FILE* createFile(const std::filesystem::path& file);
 
+/// The same on each rank, also on a silent one: of files of which each rank has one of its own.
+[[nodiscard]] std::FILE* createFileOfRank(const std::filesystem::path& file);
+
 /// Removes a file of an earlier run, if that can be done.
 void removeFile(const std::filesystem::path& file) noexcept;
 

@@ -75,6 +75,12 @@ WrittenBeside::WrittenBeside(std::filesystem::path path, std::uintmax_t bytes)
     if (!file) fail("cannot be written");
 }
 
+WrittenBeside::WrittenBeside(std::filesystem::path path, OfEachRank)
+    : target(std::move(path)), beside(target.string() + ".part"), isOfRank(true) {
+    file = createFileOfRank(beside);
+    if (!file) fail("cannot be written");
+}
+
 std::uintmax_t WrittenBeside::flush() {
     if (isSilentRank()) return 0;
     if (!file) return std::filesystem::file_size(target);
@@ -93,14 +99,26 @@ void WrittenBeside::write(std::string_view bytes) {
     if (std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size()) fail("cannot be written");
 }
 
-void WrittenBeside::close() {
+void WrittenBeside::finish() {
     std::FILE* open = std::exchange(file, nullptr);
     if (!open) return;
     if (std::fclose(open) != 0) fail("cannot be completed");
-    if (isSilentRank()) return;
+    isFinished = true;
+}
+
+void WrittenBeside::close() {
+    finish();
+    if (!std::exchange(isFinished, false) || (isSilentRank() && !isOfRank)) return;
     std::error_code problem;
     std::filesystem::rename(beside, target, problem);
     if (problem) fail("cannot be renamed to its final name");
+}
+
+void WrittenBeside::discard() noexcept {
+    if (file) std::fclose(std::exchange(file, nullptr));
+    if (isSilentRank() && !isOfRank) return;
+    std::error_code ignored;
+    for (const std::filesystem::path& one : {beside, target}) std::filesystem::remove(one, ignored);
 }
 
 void WrittenBeside::fail(std::string_view what) const {

@@ -33,6 +33,9 @@ public:
     /// complete, or the complete one, which then gets the other name. Where there is neither, it starts
     /// again; throws InputError where there is less.
     WrittenBeside(std::filesystem::path path, std::uintmax_t bytes);
+    /// A file of its own that each rank writes, also a silent one.
+    struct OfEachRank {};
+    WrittenBeside(std::filesystem::path path, OfEachRank);
     WrittenBeside(const WrittenBeside&) = delete;
     WrittenBeside& operator=(const WrittenBeside&) = delete;
     /// A file that was not completed stays under the other name.
@@ -42,8 +45,12 @@ public:
     void write(std::string_view bytes);
     /// Waits until all that was written is on the disk; returns how many bytes there are.
     std::uintmax_t flush();
-    /// Completes the file under its name. Throws InputError if that fails (a full disk).
+    /// All is written: close() only gives the file its name. Throws InputError if that fails (a full disk).
+    void finish();
+    /// Completes the file under its name. Throws InputError if that fails.
     void close();
+    /// Removes the file, under whichever of its names it is.
+    void discard() noexcept;
 
 private:
     [[noreturn]] void fail(std::string_view what) const;
@@ -51,6 +58,8 @@ private:
     std::filesystem::path target;
     std::filesystem::path beside;
     std::FILE* file = nullptr;
+    bool isFinished = false;  // and has the other name
+    bool isOfRank = false;
 };
 
 }  // namespace pendular

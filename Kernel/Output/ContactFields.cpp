@@ -36,6 +36,8 @@ public:
     [[nodiscard]] std::int32_t rankAt(std::uint32_t place) const {
         return static_cast<std::int32_t>(rank[place]);
     }
+    /// It is no ghost.
+    [[nodiscard]] bool isOwn(std::uint32_t place) const { return rank[place] != none; }
 
     /// Calls function(part, row, bucket, contact), on several threads.
     template <class Function>
@@ -161,7 +163,7 @@ private:
     std::vector<std::vector<Real>> named;
 };
 
-/// The end of a line at a wall or at an image, which is no grain's centre.
+/// The end of a line at a wall or at an image, which is no own grain's centre.
 struct OwnEnd {
     std::size_t row;
     Vector<double> point;
@@ -198,7 +200,10 @@ PolyData contactLines(const ContactSystem& contacts, const ParticleStore& grains
         const bool isImage = bucket.wall < 0 && isPeriodic &&
                              norm(end - grains.translation[place2].position) > 0.5 * norm(seen.shift);
         data.corners[2 * row] = rows.rankAt(place1);
-        if (bucket.wall < 0 && !isImage) data.corners[2 * row + 1] = rows.rankAt(place2);
+        if (bucket.wall < 0 && !isImage && rows.isOwn(place2))
+            data.corners[2 * row + 1] = rows.rankAt(place2);
+        else if (bucket.wall < 0 && !isImage)
+            ownEnds[part].push_back({row, grains.translation[place2].position});
         else ownEnds[part].push_back({row, end});
         data.ends[row] = static_cast<std::int32_t>(2 * (row + 1));
     });

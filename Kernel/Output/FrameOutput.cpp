@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Files/FileName.h"
 #include "Kernel/Output/Hdf5Output.h"
 #include "Kernel/Output/ParaViewOutput.h"
@@ -35,8 +36,17 @@ template <class Series>
 void FrameOutput<Series>::write(const Scene& scene) {
     if (scene.getTime() <= last) return;  // it has this state
     if (!series) series.emplace(nameIn(scene), keptUntil(scene));
-    series->add(content.of(scene), scene.getNumberOfThreads());
+    add(content.of(scene), scene);
     last = scene.getTime();
+}
+
+template <class Series>
+void FrameOutput<Series>::add(SceneFrame frame, const Scene& scene) {
+    if constexpr (Series::hasParts) {
+        const AllRanks& ranks = scene.contacts().ranks();
+        if (ranks.areSeveral()) return series->addPart(std::move(frame), scene.getNumberOfThreads(), ranks);
+    }
+    series->add(std::move(frame), scene.getNumberOfThreads());
 }
 
 template <class Series>

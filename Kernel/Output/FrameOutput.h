@@ -14,7 +14,8 @@ class StateArchive;
 /// Frames of a scene at intervals, in the files of a Series. Given to Simulation::addOutput().
 ///
 /// A Series has a constructor (name, keptUntil), which keeps the frames of an earlier part of the run up to
-/// that time (s; -infinity: none) and removes later ones; add(SceneFrame, threads); the path indexOf(name) of
+/// that time (s; -infinity: none) and removes later ones; add(SceneFrame, threads); hasParts, and where it is
+/// true addPart(SceneFrame, threads, AllRanks); the path indexOf(name) of
 /// the file that lists the frames; prepare(), which throws InputError if this build cannot write it; and
 /// check(name), which throws InputError if that file is there and cannot be gone on with. FrameOutput.cpp
 /// lists them all.
@@ -40,6 +41,11 @@ public:
     /// Fields of 64 bits, as the run has them; 32 by default. Positions always have 64.
     FrameOutput& withDoubles(bool yes = true) { return content.doubles = yes, *this; }
 
+    /// On several ranks, each writes a file with its own grains and contacts, and the first one what names
+    /// them (see ParaViewFrames). Where one process has all grains, there is one file.
+    FrameOutput& withParts(bool yes = true) requires Series::hasParts { return parts = yes, *this; }
+    [[nodiscard]] bool writesParts() const { return parts; }
+
     void prepare(const Scene& scene) const;
     void write(const Scene& scene);
     /// Writes the end of a run that goes on from a file that knows no frames, and that has had no output
@@ -49,6 +55,7 @@ public:
     void visitState(StateArchive& archive, const Scene& scene);
 
 private:
+    void add(SceneFrame frame, const Scene& scene);
     [[nodiscard]] std::string nameIn(const Scene& scene) const;
     /// A restart file that knows nothing of this output was written by a run without it.
     [[nodiscard]] double keptUntil(const Scene& scene) const;
@@ -59,6 +66,7 @@ private:
     OutputInterval times;
     double last = -INFINITY;  // s, of the last frame
     bool isKnown = false;     // `last`, from a restart file
+    bool parts = false;
 };
 
 }  // namespace pendular

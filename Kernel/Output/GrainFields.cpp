@@ -12,11 +12,10 @@ namespace pendular {
 
 namespace {
 
-/// Adds, where there are rigid bodies, for each grain: the number of its body, or -1; where it is in it
+/// Adds for each grain: the number of its body, or -1; where it is in it
 /// (body_arm, from the centre of mass); the velocity and the volume of the body. Zeros for grains in none.
 template <std::floating_point Real>
 void addBodyFields(const ParticleStore& grains, PolyData& data) {
-    if (grains.bodies.empty()) return;
     const std::vector<Vector<double>> arms = grains.bodies.armsInSpace(grains);
     std::vector<std::int32_t> body;
     std::vector<Real> arm, velocity, volume;
@@ -28,7 +27,7 @@ void addBodyFields(const ParticleStore& grains, PolyData& data) {
         body.push_back(static_cast<std::int32_t>(number));
         const bool isMember = number != RigidBodies::none;
         const std::size_t k = isMember ? grains.bodies.find(number) : 0;
-        append(arm, arms[place]);
+        append(arm, isMember ? arms[place] : Vector<double>{0, 0, 0});
         append(velocity, isMember ? grains.bodies[k].velocity : Vector<double>{0, 0, 0});
         volume.push_back(isMember ? static_cast<Real>(grains.bodies.volumeOf(k)) : 0);
     }
@@ -41,7 +40,7 @@ void addBodyFields(const ParticleStore& grains, PolyData& data) {
 }  // namespace
 
 template <std::floating_point Real>
-PolyData grainPoints(const ParticleStore& grains, const ContactLaws& laws) {
+PolyData grainPoints(const ParticleStore& grains, const ContactLaws& laws, bool withBodies) {
     PolyData data;
     const GrainMasses masses(grains, laws);
     std::vector<Real> radius, mass, velocity, spin, force;
@@ -75,7 +74,7 @@ PolyData grainPoints(const ParticleStore& grains, const ContactLaws& laws) {
     if (grains.hasSpin) data.pointFields.push_back({"spin_rad_per_s", 3, std::move(spin)});
     data.pointFields.push_back({"force_N", 3, std::move(force)});
     data.pointFields.push_back({"species", 1, std::move(species)});
-    addBodyFields<Real>(grains, data);
+    if (withBodies || !grains.bodies.empty()) addBodyFields<Real>(grains, data);
     data.pointFields.push_back({"fixed", 1, std::move(fixed)});
     data.pointFields.push_back({"identity", 1, std::move(identity)});
     for (const GrainColumn& column : grains.columns) {
@@ -104,24 +103,44 @@ PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& 
             sums[place][6 + k] += branch.z * parts[k];
         }
     };
-    contacts.forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
-        const ObservedContact seen = contacts.observe(grains, bucket, contact);
+    const auto addTo1 = [&](const ObservedContact& seen) {
+        const std::uint32_t place = grains.place[seen.particle1];
+        if (shapes)
+            return add(seen.particle1, 1, seen.point - grains.translation[place].position + arms.at(place),
+                       seen.force);
+        const Vector<double> normal = (1 / norm(seen.shift)) * seen.shift;
+        add(seen.particle1, 1,
+            (grains.translation[place].radius + 0.5 * seen.separation) * normal + arms.at(place), seen.force);
+    };
+    const auto addTo2 = [&](const ObservedContact& seen) {
+        const std::uint32_t place = grains.place[seen.particle2];
         if (shapes) {
-            const Vector<double> arm = seen.point - grains.translation[grains.place[seen.particle1]].position;
-            add(seen.particle1, 1, arm + arms.at(grains.place[seen.particle1]), seen.force);
-            if (bucket.wall < 0)
-                add(seen.particle2, -1, arm - seen.shift + arms.at(grains.place[seen.particle2]), seen.force);
-            return;
+            const Vector<double> position1 =
+                grains.translation[grains.placeOf(seen.particle1)].position;  // it may be a ghost
+            return add(seen.particle2, -1, seen.point - position1 - seen.shift + arms.at(place), seen.force);
         }
         const Vector<double> normal = (1 / norm(seen.shift)) * seen.shift;
-        const double half = 0.5 * seen.separation;
-        const auto branchOf = [&](std::uint32_t identity, double sign) {
-            const std::uint32_t place = grains.place[identity];
-            return sign * ((grains.translation[place].radius + half) * normal) + arms.at(place);
-        };
-        add(seen.particle1, 1, branchOf(seen.particle1, 1), seen.force);
-        if (bucket.wall < 0) add(seen.particle2, -1, branchOf(seen.particle2, -1), seen.force);
-    });
+        add(seen.particle2, -1,
+            -1.0 * ((grains.translation[place].radius + 0.5 * seen.separation) * normal) + arms.at(place),
+            seen.force);
+    };
+    if (grains.isShared) {
+        // All contacts of own grains, also those that count on another rank; in the order in which they are
+        // added below.
+        for (const std::uint32_t place : grains.place)
+            for (const bool isSecond : {true, false})
+                contacts.forEachActingOf(place, [&](const Bucket& bucket, std::uint32_t contact) {
+                    if ((contacts.firstOf(contact) == place) == isSecond) return;
+                    const ObservedContact seen = contacts.observe(grains, bucket, contact);
+                    isSecond ? addTo2(seen) : addTo1(seen);
+                });
+    } else {
+        contacts.forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
+            const ObservedContact seen = contacts.observe(grains, bucket, contact);
+            addTo1(seen);
+            if (bucket.wall < 0) addTo2(seen);
+        });
+    }
     for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
         std::array<double, 9> whole{};
         const auto members = grains.bodies.membersOf(k);
@@ -140,8 +159,8 @@ PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& 
     return {"stress_Pa", 9, std::move(numbers)};
 }
 
-template PolyData grainPoints<float>(const ParticleStore&, const ContactLaws&);
-template PolyData grainPoints<double>(const ParticleStore&, const ContactLaws&);
+template PolyData grainPoints<float>(const ParticleStore&, const ContactLaws&, bool);
+template PolyData grainPoints<double>(const ParticleStore&, const ContactLaws&, bool);
 template PolyDataField grainStresses<float>(const ContactSystem&, const ParticleStore&, const ContactLaws&);
 template PolyDataField grainStresses<double>(const ContactSystem&, const ParticleStore&, const ContactLaws&);
 

@@ -8,6 +8,7 @@ namespace pendular {
 /// NAME-fields.h5, and of each frame NAME-fields-STEP.h5; see Hdf5Series.
 class Hdf5Frames {
 public:
+    static constexpr bool hasParts = false;
     Hdf5Frames(const std::string& name, double keptUntil) : series(beginningOf(name), keptUntil) {}
     static std::filesystem::path indexOf(const std::string& name) {
         return Hdf5Series::indexOf(beginningOf(name));

@@ -6,34 +6,20 @@
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Base/SilentRank.h"
 #include "Kernel/Files/OwnFile.h"
 #include "Kernel/Files/TextFile.h"
 #include "Kernel/Files/WrittenBeside.h"
 #include "Kernel/Output/FrameIndex.h"
+#include "Kernel/Output/FrameParts.h"
+#include "Kernel/Output/XmlText.h"
 
 namespace pendular {
 
 namespace {
 
 constexpr std::string_view lineBegin = "<DataSet timestep=\"", lastLine = "</VTKFile>";
-
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        if (c == '&') result += "&amp;";
-        else if (c == '<') result += "&lt;";
-        else if (c == '"') result += "&quot;";
-        else result += c;
-    }
-    return result;
-}
-
-std::string unescaped(std::string text) {
-    for (const auto& [code, sign] : {std::pair{"&lt;", "<"}, {"&quot;", "\""}, {"&amp;", "&"}})
-        for (std::size_t at = text.find(code); at != text.npos; at = text.find(code, at + 1))
-            text.replace(at, std::string_view(code).size(), sign);
-    return text;
-}
+constexpr std::string_view partedEnding = ".pvtp";
 
 /// The value of an attribute of a line; empty where there is none.
 std::string valueOf(const std::string& line, std::string_view attribute) {
@@ -69,6 +55,7 @@ std::vector<ParaViewEntry> readParaViewSeries(const std::filesystem::path& path)
 
 ParaViewSeries::ParaViewSeries(std::string name, double keptUntil, std::string fileEnding)
     : file(name + ".pvd"), beginning(std::move(name)), ending(std::move(fileEnding)) {
+    if (isSilentRank()) return;
     std::vector<std::filesystem::path> dropped;
     const std::vector<ParaViewEntry> former = formerEntries(keptUntil != -INFINITY);
     for (const ParaViewEntry& entry : former)
@@ -77,7 +64,7 @@ ParaViewSeries::ParaViewSeries(std::string name, double keptUntil, std::string f
     // In this order, so that a series never names a file that is not there.
     if (entries.empty()) removeFile(file);
     else if (entries.size() < former.size()) write();
-    for (const std::filesystem::path& path : dropped) removeFile(path);
+    for (const std::filesystem::path& path : dropped) removeWithPieces(path);
 }
 
 std::vector<ParaViewEntry> ParaViewSeries::formerEntries(bool needed) const {
@@ -97,17 +84,27 @@ bool ParaViewSeries::isOwn(const ParaViewEntry& entry) const {
                       begin = fmt::format("{}-{}-", std::filesystem::path(beginning).filename().string(),
                                           entry.kind);
     constexpr std::size_t fewestDigits = 9;
-    if (!name.starts_with(begin) || !name.ends_with(ending) ||
-        name.size() < begin.size() + fewestDigits + ending.size())
+    const std::string_view last = name.ends_with(partedEnding) ? partedEnding : ending;
+    if (!name.starts_with(begin) || !name.ends_with(last) ||
+        name.size() < begin.size() + fewestDigits + last.size())
         return false;
-    const std::string step = name.substr(begin.size(), name.size() - begin.size() - ending.size());
+    const std::string step = name.substr(begin.size(), name.size() - begin.size() - last.size());
     return step.find_first_not_of("0123456789") == step.npos;
 }
 
 void ParaViewSeries::check(const std::string& name) { checkFrameIndex(name + ".pvd", readParaViewSeries); }
 
 std::filesystem::path ParaViewSeries::add(std::string_view kind, double time, std::size_t step) {
-    std::filesystem::path path = fmt::format("{}-{}-{:09}{}", beginning, kind, step, ending);
+    return add(kind, time, step, ending);
+}
+
+std::filesystem::path ParaViewSeries::addParted(std::string_view kind, double time, std::size_t step) {
+    return add(kind, time, step, partedEnding);
+}
+
+std::filesystem::path ParaViewSeries::add(std::string_view kind, double time, std::size_t step,
+                                          std::string_view last) {
+    std::filesystem::path path = fmt::format("{}-{}-{:09}{}", beginning, kind, step, last);
     std::erase_if(entries,
                   [&](const ParaViewEntry& entry) { return entry.time == time && entry.kind == kind; });
     entries.push_back({time, std::string(kind), path});

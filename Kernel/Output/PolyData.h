@@ -10,6 +10,8 @@
 
 namespace pendular {
 
+class WrittenBeside;
+
 /// The numbers of the points or of the cells, under a name that ends with the unit: "radius_m".
 struct PolyDataField {
     using Numbers = std::variant<std::vector<float>, std::vector<double>, std::vector<std::int32_t>>;
@@ -63,8 +65,16 @@ private:
 /// Throws InputError if the file cannot be written.
 void writePolyData(const std::filesystem::path& path, const PolyData& data, int threads = 1);
 
-/// Reads what writePolyData() writes, and no other form of VTK's files. Throws InputError with the file and
-/// the reason.
+/// The same into a file that is completed later.
+void writePolyData(WrittenBeside& file, const PolyData& data, int threads = 1);
+/// Writes a .pvtp file: the names of files beside it that are one thing together.
+/// @param like one of them, which all have the same fields
+void writePieces(const std::filesystem::path& path, const PolyData& like,
+                 const std::vector<std::string>& pieces);
+
+/// Reads what writePolyData() writes, and no other form of VTK's files; of a .pvtp file all pieces, points in
+/// the order of their identities and contacts in that of their particle1, as they are in one file. Throws
+/// InputError with the file and the reason.
 PolyData readPolyData(const std::filesystem::path& path);
 
 }  // namespace pendular

@@ -5,6 +5,7 @@
 
 #include "Kernel/Output/PolyData.h"
 #include "Kernel/Output/VtkDocument.h"
+#include "Kernel/Output/XmlText.h"
 
 namespace pendular {
 
@@ -19,9 +20,7 @@ void addCells(VtkDocument& document, const PolyData& data) {
     document.add(fmt::format("</{}>\n", section));
 }
 
-}  // namespace
-
-void writePolyData(const std::filesystem::path& path, const PolyData& data, int threads) {
+VtkDocument documentOf(const PolyData& data, int threads) {
     static_assert(sizeof(Vector<double>) == 3 * sizeof(double));
     const auto countOf = [&](PolyData::Cells kind) { return data.kind == kind ? data.ends.size() : 0; };
     VtkDocument document("PolyData", data.time, "", threads, data.wholeFields);
@@ -38,7 +37,43 @@ void writePolyData(const std::filesystem::path& path, const PolyData& data, int 
     document.add("</Points>\n");
     addCells(document, data);
     document.add("</Piece>\n");
-    document.write(path);
+    return document;
+}
+
+}  // namespace
+
+void writePolyData(const std::filesystem::path& path, const PolyData& data, int threads) {
+    documentOf(data, threads).write(path);
+}
+
+void writePolyData(WrittenBeside& file, const PolyData& data, int threads) {
+    documentOf(data, threads).write(file);
+}
+
+void writePieces(const std::filesystem::path& path, const PolyData& like,
+                 const std::vector<std::string>& pieces) {
+    const auto describe = [](std::string_view section, const std::vector<PolyDataField>& fields) {
+        std::string text = fmt::format("<{}>\n", section);
+        for (const PolyDataField& field : fields)
+            std::visit(
+                [&]<class Number>(const std::vector<Number>&) {
+                    text += fmt::format("<PDataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"/>\n",
+                                        VtkDocument::typeName<Number>(), field.name, field.components);
+                },
+                field.numbers);
+        return text + fmt::format("</{}>\n", section);
+    };
+    WrittenBeside file(path);
+    file.write(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PPolyData\" version=\"1.0\">\n"
+        "<PPolyData GhostLevel=\"0\">\n");
+    file.write(describe("PPointData", like.pointFields));
+    file.write(describe("PCellData", like.cellFields));
+    file.write(describe("PPoints", {{"Points", 3, std::vector<double>{}}}));
+    for (const std::string& piece : pieces)
+        file.write(fmt::format("<Piece Source=\"{}\"/>\n", escaped(piece)));
+    file.write("</PPolyData>\n</VTKFile>\n");
+    file.close();
 }
 
 }  // namespace pendular

@@ -64,9 +64,9 @@ void requireDistinctNames(const std::vector<PolyDataField>& fields, std::string_
 
 constexpr std::array axes{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
 
-/// Around all grains and the periods of the scene.
-std::pair<Vector<double>, Vector<double>> boxAround(const ParticleStore& grains,
-                                                    const PeriodicBox& periodic) {
+/// Around all grains, also those of other ranks, and the periods of the scene.
+std::pair<Vector<double>, Vector<double>> boxAround(const ParticleStore& grains, const PeriodicBox& periodic,
+                                                    const AllRanks& ranks) {
     Vector<double> lowest{infinity, infinity, infinity}, highest = -lowest;
     for (const TranslationRecord& grain : grains.translation) {
         if (grain.radius == 0) continue;  // a gap
@@ -77,6 +77,7 @@ std::pair<Vector<double>, Vector<double>> boxAround(const ParticleStore& grains,
         }
     }
     for (const auto axis : axes) {
+        lowest.*axis = ranks.smallest(lowest.*axis), highest.*axis = ranks.largest(highest.*axis);
         if (!(lowest.*axis <= highest.*axis)) lowest.*axis = highest.*axis = 0;  // no grains
         if (!(periodic.length.*axis > 0)) continue;
         lowest.*axis = periodic.lowest.*axis;
@@ -129,13 +130,15 @@ using AddedFields = std::vector<std::pair<std::string, FrameContent::GrainValue>
 template <class Real>
 SceneFrame frameOf(const FrameContent& content, const AddedFields& added, const Scene& scene) {
     const auto& store = scene.particleHandler.store();
-    SceneFrame frame{scene.getNumberOfTimeSteps(),
-                     scene.getTime(),
-                     grainPoints<Real>(store, scene.laws()),
-                     {},
-                     {},
-                     {},
-                     {}};
+    const AllRanks& ranks = scene.contacts().ranks();
+    const bool withBodies = ranks.any(!store.bodies.empty());
+    SceneFrame frame{.step = scene.getNumberOfTimeSteps(),
+                     .time = scene.getTime(),
+                     .grains = grainPoints<Real>(store, scene.laws(), withBodies),
+                     .contacts = {},
+                     .walls = {},
+                     .shapes = {},
+                     .droplets = {}};
     for (const auto& [name, valueOf] : added)
         frame.grains.pointFields.push_back(fieldOf<Real>(name, valueOf, store));
     if (content.stress)
@@ -152,7 +155,7 @@ SceneFrame frameOf(const FrameContent& content, const AddedFields& added, const 
     requireDistinctNames(frame.grains.pointFields, "grains");
     if (frame.contacts) requireDistinctNames(frame.contacts->cellFields, "contacts");
     if (scene.wallHandler.getSize() > 0) {
-        const auto [lowest, highest] = boxAround(store, scene.contacts().periodicBox());
+        const auto [lowest, highest] = boxAround(store, scene.contacts().periodicBox(), ranks);
         frame.walls = wallPolygons(scene.wallHandler, lowest, highest);
     }
     if (!scene.sprayHandler.isEmpty()) frame.droplets = dropletPoints<Real>(scene.sprayHandler);

@@ -23,8 +23,9 @@ class WallHandler;
 /// The grains as points: radius, mass, velocity, spin, force (of contacts and weight), species, whether they
 /// are held in place (fixed), identity; with rigid bodies also the body that each is in, and where in it.
 /// @tparam Real of the fields; positions are doubles
+/// @param withBodies the fields of bodies are there where the store has none, too
 template <std::floating_point Real = float>
-PolyData grainPoints(const ParticleStore& grains, const ContactLaws& laws);
+PolyData grainPoints(const ParticleStore& grains, const ContactLaws& laws, bool withBodies = false);
 
 /// The mean stress in each grain (Pa, tension positive), in the order of identities:
 /// sigma = sum over its contacts of l f / V, with the branch l (m) from the centre to the contact point, the
@@ -75,6 +76,7 @@ public:
     /// @param name ends with the unit
     void addField(std::string name, GrainValue valueOf);
 
+    /// Of a scene whose ranks have their own grains only, what this rank has; all call it.
     [[nodiscard]] SceneFrame of(const Scene& scene) const;
 
 private:

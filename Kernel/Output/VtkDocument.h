@@ -68,15 +68,17 @@ public:
     }
     void write(const std::filesystem::path& path) const {
         WrittenBeside file(path);
+        write(file);
+        file.close();
+    }
+    void write(WrittenBeside& file) const {
         file.write(xml);
         file.write(fmt::format("</{}>\n", kind));
         file.write("<AppendedData encoding=\"raw\">\n_");
         for (const std::string& array : appended) file.write(array);
         file.write("\n</AppendedData>\n</VTKFile>\n");
-        file.close();
     }
 
-private:
     template <class Number>
     static constexpr std::string_view typeName() {
         if constexpr (std::is_same_v<Number, float>) return "Float32";
@@ -84,6 +86,7 @@ private:
         else return "Int32";
     }
 
+private:
     int threads;
     std::string kind, xml;
     std::vector<std::string> appended;

@@ -27,6 +27,10 @@ public:
     /// Whether what all ranks do alike, and is summed over them, counts on this one.
     [[nodiscard]] bool isFirst() const { return !areSeveral() || exchange->rank() == 0; }
 
+    /// The number of this one, from 0, and how many there are.
+    [[nodiscard]] std::size_t rank() const { return areSeveral() ? exchange->rank() : 0; }
+    [[nodiscard]] std::size_t count() const { return areSeveral() ? exchange->count() : 1; }
+
     /// Throws InputError where each rank has its own grains only. @param what needs all of them, "clusters"
     void requireAllGrains(std::string_view what) const;
 

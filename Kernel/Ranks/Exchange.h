@@ -11,6 +11,13 @@
 
 namespace pendular {
 
+/// What is said where ranks wait for each other in different calls, as when some gather grains and others go
+/// on.
+inline constexpr const char* inOtherCalls =
+    "Ranks wait for each other in different calls: gather(), writeRestart(), sumOverRanks() and others that "
+    "say "
+    "so must be called on all ranks, in the same order (Kernel/Ranks/README.md).";
+
 /// What goes between the ranks of a run, as one of them sees it. All ranks call the same functions in the
 /// same order.
 class Exchange {

@@ -38,7 +38,10 @@ void takeBodies(Message& message, RigidBodies& bodies, bool areGhosts) {
 void GrainSharing::distribute(ParticleStore& grains, const PeriodicBox& box, double reach,
                               const Luggage& luggage) {
     times.beginList(exchange);
-    if (!isDistributed || options.cutsWander || areImbalanced(grains, luggage)) cutAnew(grains, box, luggage);
+    // After an output all ranks go on as before: the first one does not know what its own grains take.
+    const bool goesOn = !std::exchange(wereOwn, {}).empty();
+    if (!isDistributed || options.cutsWander || (!goesOn && areImbalanced(grains, luggage)))
+        cutAnew(grains, box, luggage);
     migrate(grains, box, luggage);
     isDistributed = grains.isShared = true;
     findGhosts(grains, box, reach);
@@ -116,8 +119,10 @@ void GrainSharing::takeGrains(Message message, ParticleStore& grains, const Lugg
     luggage.unpack(message);
 }
 
-void GrainSharing::gather(ParticleStore& grains, const Luggage& luggage) {
+void GrainSharing::gather(ParticleStore& grains, const Luggage& luggage, GatheredOn where) {
     times.endSteps(exchange);
+    const auto gets = [&](std::size_t q) { return where == GatheredOn::AllRanks || q == 0; };
+    const std::size_t self = exchange.rank();
     std::vector<std::uint32_t> own, bodies(grains.bodies.size());
     for (std::uint32_t k = 0; k < grains.ownSize(); ++k)
         if (!grains.isGap(k)) own.push_back(k);
@@ -128,16 +133,35 @@ void GrainSharing::gather(ParticleStore& grains, const Luggage& luggage) {
     addBodies(message, grains.bodies, bodies);
     luggage.packAll(message);
     std::vector<Message> toEach(exchange.count());
-    for (std::size_t q = 0; q < exchange.count(); ++q)
-        if (q != exchange.rank()) toEach[q] = message;  // it has them
+    for (std::size_t q = exchange.count(); q-- > 0;) {
+        if (q == self || !gets(q)) continue;  // it has them, or does not want them
+        if (where == GatheredOn::FirstRank) toEach[q] = std::move(message);
+        else toEach[q] = message;
+    }
     message = {};
+    std::vector<Message> fromEach = exchange.swap(std::move(toEach));
+    if (where == GatheredOn::FirstRank) {
+        wereOwn.assign(std::size_t{grains.nextIdentity()} + 1, false);
+        for (const std::uint32_t k : own) wereOwn[grains.identity[k]] = true;
+    }
+    if (!gets(self)) return;
     grains.keepOnly(own);
     grains.bodies.keepOnly(bodies);
     isDistributed = grains.isShared = false;
-    std::vector<Message> fromEach = exchange.swap(std::move(toEach));
     for (std::size_t q = 0; q < exchange.count(); ++q)
-        if (q != exchange.rank()) takeGrains(std::move(fromEach[q]), grains, luggage);
+        if (q != self) takeGrains(std::move(fromEach[q]), grains, luggage);
     grains.bodies.sort();
+}
+
+void GrainSharing::dropOthers(ParticleStore& grains) {
+    std::vector<std::uint32_t> own, bodies;
+    for (std::uint32_t k = 0; k < grains.ownSize(); ++k)
+        if (!grains.isGap(k) && wereOwn[grains.identity[k]]) own.push_back(k);
+    for (std::uint32_t k = 0; k < grains.bodies.size(); ++k)
+        if (wereOwn[grains.bodies.membersOf(k).front().grain]) bodies.push_back(k);
+    grains.keepOnly(own);
+    grains.bodies.keepOnly(bodies);
+    isDistributed = grains.isShared = true;
 }
 
 std::vector<std::size_t> GrainSharing::findOwners(const ParticleStore& grains, const PeriodicBox& box) const {

@@ -39,6 +39,9 @@ struct RankCounts {
     double waiting = 0;         // s, in these steps
 };
 
+/// Who has all grains after they have been gathered.
+enum class GatheredOn { AllRanks, FirstRank };
+
 /// What goes along with grains to other ranks.
 struct Luggage {
     /// What the grain at a place, with its contacts, takes of the time of a step.
@@ -63,9 +66,12 @@ public:
     /// are found again. The first time all ranks have all grains.
     /// @param reach m, of surfaces between which contacts must be listed
     void distribute(ParticleStore& grains, const PeriodicBox& box, double reach, const Luggage& luggage);
-    /// All ranks get all grains, as before the first list. What each has then is that of the scene: nothing
-    /// is to be summed over ranks until the next list.
-    void gather(ParticleStore& grains, const Luggage& luggage);
+    /// All ranks get all grains, as before the first list; or the first one alone does, and the others keep
+    /// theirs, with their ghosts. What a rank has that got them is that of the scene: nothing is to be summed
+    /// over ranks until the next list.
+    void gather(ParticleStore& grains, const Luggage& luggage, GatheredOn where);
+    /// The first rank, which alone had got all grains, has its own ones again, and all ranks can share them.
+    void dropOthers(ParticleStore& grains);
     /// The next time, all ranks have all grains whose identities begin at this one, as at first.
     void expectOnAll(std::uint32_t first) { onAllFrom = first; }
     /// After a list: copies that are in none of its contacts are gaps until the next one, and are not sent.
@@ -128,6 +134,7 @@ private:
     RankTimes times;
     bool isDistributed = false;
     std::uint32_t onAllFrom = ~std::uint32_t{0};
+    std::vector<bool> wereOwn;  // of each identity, before the first rank got all grains; empty: it has not
     RankCounts done;
     using OfEachRank = std::vector<std::vector<std::uint32_t>>;
     OfEachRank sent, got;                          // identities of ghosts, to and from each rank

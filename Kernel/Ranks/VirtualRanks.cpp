@@ -18,13 +18,13 @@ public:
     [[nodiscard]] std::size_t count() const override { return all.ranks; }
     // NOLINTNEXTLINE(bugprone-exception-escape): it exchanges messages, not what two names stand for
     [[nodiscard]] std::vector<Message> swap(std::vector<Message> toEach) override {
-        auto& mail = nextBoard().mail;
+        auto& mail = board(Call::Swap).mail;
         for (std::size_t to = 0; to < all.ranks; ++to) mail[to][own] = std::move(toEach[to]);
         meet();
         return std::exchange(mail[own], std::vector<Message>(all.ranks));
     }
     [[nodiscard]] double largest(double value) override {
-        auto& values = nextBoard().values;
+        auto& values = board(Call::Largest).values;
         values[own] = value;
         meet();
         return std::ranges::max(values);
@@ -32,10 +32,16 @@ public:
     [[nodiscard]] double waited() const override { return waiting.seconds(); }
 
 private:
-    Board& nextBoard() { return all.boards[calls++ % 2]; }
+    Board& board(Call call) {
+        Board& next = all.boards[++calls % 2];
+        next.calls[own] = call;
+        return next;
+    }
     void meet() {
         const Stopwatch::Within within(waiting);
         all.meet();
+        const std::vector<Call>& called = all.boards[calls % 2].calls;
+        if (std::ranges::count(called, called[own]) < std::ssize(called)) throw RunError(inOtherCalls);
     }
 
     VirtualRanks& all;
@@ -46,7 +52,7 @@ private:
 void VirtualRanks::run(const std::function<void(Exchange&)>& program) {
     for (Board& board : boards)
         board = {std::vector<std::vector<Message>>(ranks, std::vector<Message>(ranks)),
-                 std::vector<double>(ranks, 0)};
+                 std::vector<double>(ranks, 0), std::vector<Call>(ranks)};
     waiting = ended = 0;
     isAlone = false;
     std::vector<std::exception_ptr> failures(ranks);

@@ -20,7 +20,7 @@ public:
 
     /// Calls program(exchange) for each rank at the same time, and returns when all have ended. If one throws
     /// or returns, and others wait for it, they end there; what the lowest rank threw by itself is thrown on,
-    /// and RunError where one just returned while others waited.
+    /// and RunError where one just returned while others waited, or where they wait in different calls.
     void run(const std::function<void(Exchange&)>& program);
 
 private:
@@ -32,11 +32,13 @@ private:
     /// A rank calls it no more.
     void leave();
 
+    enum class Call { Swap, Largest };
     /// What is given in a call. There are two: a rank that is ahead gives the next while others still take
     /// this one.
     struct Board {
         std::vector<std::vector<Message>> mail;  // to each rank, from each
         std::vector<double> values;              // of each rank
+        std::vector<Call> calls;                 // of each rank: what it calls
     };
 
     std::size_t ranks;

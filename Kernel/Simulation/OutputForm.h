@@ -71,6 +71,11 @@ template <class Output>
 concept HasOwnInterval = requires(const Output& output) {
     { output.interval() } -> std::convertible_to<OutputInterval>;
 };
+/// An output that all ranks may write together, each a part with its own grains.
+template <class Output>
+concept WritesParts = requires(const Output& output) {
+    { output.writesParts() } -> std::same_as<bool>;
+};
 /// An output that has nothing to remember, or says so.
 template <class Output>
 concept IsForgetful = std::is_empty_v<Output> || std::derived_from<Output, RemembersNothing>;

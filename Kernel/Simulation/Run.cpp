@@ -72,8 +72,7 @@ void Run::writeRestart(const std::filesystem::path& file) {
     requireBegun("writeRestart()");
     const Within saving(*this, Within::Saving, Within::Saving, "writeRestart()");
     const StepTimes::Within spent(times, StepTimes::Part::Output);
-    gather();
-    if (!isSilentRank()) writeRestartFile(file, [&](StateArchive& archive) { visitAll(archive); });
+    onFirstRank([&] { writeRestartFile(file, [&](StateArchive& archive) { visitAll(archive); }); });
     if (file == restartFile() || isOwnRestartFile(file)) restartFileSteps = steps;
 }
 
@@ -179,10 +178,33 @@ void Run::writeAll() {
     requireBegun("writeAll()");
     const Within writing(*this, Within::Writing, Within::Writing | Within::Saving, "writeAll()");
     const StepTimes::Within spent(times, StepTimes::Part::Output);
-    gather();
-    for (const KeptOutput& output : outputs)
-        if (!isSilentRank()) output.write();
-    writeOutput();
+    std::vector<const KeptOutput*> all;
+    for (const KeptOutput& output : outputs) all.push_back(&output);
+    write(all, true);
+}
+
+void Run::onFirstRank(const std::function<void()>& write) {
+    if (!isSilentRank()) write();
+}
+
+void Run::gatherForDriver() {
+    if (!leavesGrains) gather();
+}
+
+/// All ranks come here in the same step, with the same outputs. Where ranks have their own grains only, those
+/// in parts come first.
+/// @param own writeOutput() is due, too
+void Run::write(const std::vector<const KeptOutput*>& due, bool own) {
+    std::vector<const KeptOutput*> whole;
+    for (const KeptOutput* const output : due)
+        if (output->inParts && areGrainsOnRanks()) output->write();
+        else whole.push_back(output);
+    if (own && writesByItself) gatherForDriver();
+    if (!whole.empty())
+        onFirstRank([&] {
+            for (const KeptOutput* const output : whole) output->write();
+        });
+    if (own) writeOutput();
 }
 
 /// Writes what is due after this step; at the end of the run, what was not. An output with an interval knows
@@ -190,24 +212,20 @@ void Run::writeAll() {
 void Run::writeOutputs(bool atEnd) {
     const Within writing(*this, Within::Writing, 0, {});
     const bool own = (saveCount > 0 && steps % saveCount == 0) != atEnd;
-    std::vector<std::function<void()>> due = dueOutputs(atEnd, own);
-    if (own) due.emplace_back([this] { writeOutput(); });
-    if (due.empty()) return;
+    const std::vector<const KeptOutput*> due = dueOutputs(atEnd, own);
+    if (due.empty() && !own) return;
     const StepTimes::Within spent(times, StepTimes::Part::Output);
-    gather();
-    for (const auto& write : due) write();
+    write(due, own);
 }
 
-/// Those that do nothing, of silent ranks, are among them: all ranks gather grains in the same step.
-std::vector<std::function<void()>> Run::dueOutputs(bool atEnd, bool own) {
-    std::vector<std::function<void()>> due;
+std::vector<const Run::KeptOutput*> Run::dueOutputs(bool atEnd, bool own) {
+    std::vector<const KeptOutput*> due;
     for (KeptOutput& output : outputs) {
         const bool isDue =
             !output.interval.isGiven()
                 ? own
                 : atEnd || output.interval.isDueAfter(steps - stepsBefore, timeStep, timeBefore);
-        if (isDue && isSilentRank()) due.emplace_back([] {});
-        else if (isDue) due.push_back(output.write);
+        if (isDue) due.push_back(&output);
     }
     return due;
 }
@@ -228,7 +246,7 @@ void Run::completeAll() {
 }
 
 void Run::complete() {
-    completeOutputs();
+    onFirstRank([this] { completeOutputs(); });
     completeOutput();
 }
 

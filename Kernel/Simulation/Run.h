@@ -37,7 +37,7 @@ public:
     virtual void actionsBeforeTimeStep() {}
     virtual void actionsAfterTimeStep() {}
     /// Called at the start, after every saveCount steps and at the end.
-    virtual void writeOutput() {}
+    virtual void writeOutput() { writesByItself = false; }
     /// Called when the run has ended, or was asked to stop: files are to be completed here.
     virtual void completeOutput() {}
     /// Visits what the driver itself remembers from step to step, for restart files (StateArchive says how).
@@ -139,9 +139,14 @@ public:
     /// Completes the outputs; a driver that steps by itself calls it at its end.
     void completeAll();
     /// Of a scene on several ranks: all grains and contacts come to each of them until the next step, so that
-    /// all can be read and changed there, as on one rank. All ranks must call it. Outputs, writeOutput() and
-    /// completeOutput() find all of it without this, and so does who looks between two parts of a run.
+    /// all can be read and changed there, as on one rank. All ranks must call it. writeOutput() and
+    /// completeOutput() find all of it without this, and so does who looks between two parts of a run or
+    /// after it; outputs find it on the first rank, which alone writes them.
     virtual void gather() {}
+    /// Of a scene on several ranks that is too large for the memory of each of them: writeOutput(),
+    /// completeOutput() and who looks between two parts of a run or after it find the rank's own grains, as
+    /// other hooks do. The first rank alone gets all, for outputs and restart files.
+    void leaveGrainsOnRanks(bool leave = true) { leavesGrains = leave; }
 
 protected:
     /// The functions of an output that addOutput() was given; all but write may be empty.
@@ -149,6 +154,7 @@ protected:
         std::function<void()> write, prepare = {}, complete = {};
         std::function<void(StateArchive&)> visitState = {};
         OutputInterval interval = {};  // none: it is written where writeOutput() is called
+        bool inParts = false;          // by all ranks, of their own grains, where they have these only
     };
     /// Throws InputError in a run.
     void keepOutput(KeptOutput output);
@@ -204,6 +210,10 @@ private:
     [[nodiscard]] virtual RunNumbers numbers() const = 0;
     /// Whether several ranks do this run together.
     [[nodiscard]] virtual bool isShared() const { return false; }
+    /// Whether each has its own grains only.
+    [[nodiscard]] virtual bool areGrainsOnRanks() const { return false; }
+    /// The first rank has all grains while it calls this; others do not call it. All ranks must come here.
+    virtual void onFirstRank(const std::function<void()>& write);
     /// The largest of what the ranks give.
     [[nodiscard]] virtual double agreeOnLargest(double own) { return own; }
 
@@ -229,7 +239,9 @@ private:
     void stepUntil(const PartEnd& end);
     void endRun(bool stops);
     void writeOutputs(bool atEnd);
-    [[nodiscard]] std::vector<std::function<void()>> dueOutputs(bool atEnd, bool own);
+    [[nodiscard]] std::vector<const KeptOutput*> dueOutputs(bool atEnd, bool own);
+    void write(const std::vector<const KeptOutput*>& due, bool own);
+    void gatherForDriver();
     [[nodiscard]] RunStopped stop();
     void completeOutputs();
     void completeWhatCanBe();
@@ -243,6 +255,8 @@ private:
     double timeStep, timeMax = 0;  // s
     bool timeMaxIsSet = false;     // else the run in parts has no end, and timeMax is that of the part
     std::size_t saveCount = 0;
+    bool writesByItself = true;  // until writeOutput() has been found to be that of Run
+    bool leavesGrains = false;
     std::size_t steps = 0, firstStep = 0;
     std::size_t stepsBefore = 0;  // those with another time step
     double timeBefore = 0;        // s, when these had been done

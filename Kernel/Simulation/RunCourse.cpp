@@ -231,16 +231,19 @@ void Run::stepUntil(const PartEnd& end) {
         if (progress && course->heard >= RunControl::Show)
             progress->show(getTime(), steps, [this] { return numbers(); });
     }
-    gather();
-    if (progress) progress->finish(getTime(), steps, [this] { return numbers(); });
+    if (progress) {
+        const RunNumbers reached = numbers();  // of all ranks
+        progress->finish(getTime(), steps, [&] { return reached; });
+    }
     if (stops || !goesOn || (timeMaxIsSet && steps >= stepAt(timeMax))) endRun(stops);
+    else gatherForDriver();
 }
 
 void Run::endRun(bool stops) {
-    gather();
     // Before the last output: a run that goes on from here knows nothing of one that is not due.
     if (restarts.kept) writeRestart(restartFile());
     if (steps > 0) writeOutputs(true);
+    gatherForDriver();
     if (stops) throw stop();
     complete();
     static_cast<void>(agreeOnLargest(0));  // the files of the first rank are there

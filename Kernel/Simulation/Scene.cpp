@@ -50,7 +50,9 @@ void Scene::setUp() {
 }
 void Scene::advanceByStep(bool another) { inside->advanceByStep(another); }
 void Scene::visitAll(StateArchive& archive) { inside->visitAll(archive); }
+bool Scene::areGrainsOnRanks() const { return inside->isDistributed(); }
 bool Scene::isShared() const { return inside->sharing.has_value(); }
+void Scene::onFirstRank(const std::function<void()>& write) { inside->onFirstRank(write); }
 double Scene::agreeOnLargest(double own) { return isShared() ? inside->sharing->largest(own) : own; }
 
 void Scene::tellEvents() {

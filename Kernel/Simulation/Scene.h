@@ -97,6 +97,7 @@ public:
         if constexpr (VisitsState<Output, Scene>)
             calls.visitState = [this, kept](StateArchive& archive) { kept->visitState(archive, *this); };
         if constexpr (HasOwnInterval<Output>) calls.interval = kept->interval();
+        if constexpr (WritesParts<Output>) calls.inParts = kept->writesParts();
         keepOutput(std::move(calls));
     }
     /// During a run, it holds from the next step on.
@@ -293,6 +294,8 @@ private:
     void tellEvents() override;
     [[nodiscard]] RunNumbers numbers() const override;
     [[nodiscard]] bool isShared() const override;
+    void onFirstRank(const std::function<void()>& write) override;
+    [[nodiscard]] bool areGrainsOnRanks() const override;
     [[nodiscard]] double agreeOnLargest(double own) override;
     void visitAll(StateArchive& archive) override;
     void writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contacts,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -65,6 +66,8 @@ public:
     [[nodiscard]] bool isDistributed() const { return sharing && sharing->areDistributed(); }
     /// All grains and contacts come to all ranks, until the next step.
     void gather();
+    /// They come to the first rank alone while it calls the function.
+    void onFirstRank(const std::function<void()>& write);
     /// Of all ranks together; all must call it.
     [[nodiscard]] RunNumbers numbersOfAll();
 

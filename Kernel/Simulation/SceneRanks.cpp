@@ -1,3 +1,4 @@
+#include "Kernel/Base/SilentRank.h"
 #include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Simulation/SceneInside.h"
 
@@ -10,6 +11,16 @@ void Scene::Inside::gather() {
     scene.particleHandler.finishStep();
     if (scene.hasBegun()) takeOverChanges();
     contacts.gather(scene.particleHandler.store());
+}
+
+void Scene::Inside::onFirstRank(const std::function<void()>& write) {
+    if (!isDistributed()) {
+        if (!isSilentRank()) write();
+        return;
+    }
+    scene.particleHandler.finishStep();
+    if (scene.hasBegun()) takeOverChanges();
+    contacts.withAllOnFirst(scene.particleHandler.store(), write);
 }
 
 RunNumbers Scene::Inside::numbersOfAll() {

@@ -1,5 +1,6 @@
 // The files of VTK's kind "PolyData": what was written is read again, by our reader and, where it is
 // installed, by VTK's own.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -138,47 +139,77 @@ TEST(PolyDataFile, thatIsDamagedIsRefused) {
     EXPECT_TRUE(support::contains(refusalOf(huge), "ends too early"));
 }
 
+const std::string python = "/usr/bin/python3";
+
+bool isVtkMissing() {
+    return support::isMissing(support::run(python + " -c 'import vtk'").exitCode == 0, "python3-vtk9");
+}
+
+void expectThatVtkReads(const std::filesystem::path& path, const PolyData& data) {
+    const std::string script = (folders::source / "SelfTests/Output/read_vtp.py").string();
+    const auto result = support::run(python + " " + script + " " + path.string());
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    std::istringstream words(result.output);
+    double number = 0;
+    const auto expectNext = [&](double expected, const char* what) {
+        ASSERT_TRUE(words >> number) << what;
+        ASSERT_EQ(number, expected) << what;
+    };
+    const auto expectField = [&](const PolyDataField& field) {
+        std::string name;
+        words >> name;
+        EXPECT_EQ(name, field.name);
+        expectNext(static_cast<double>(field.components), "components");
+        for (std::size_t k = 0; k < field.size(); ++k)
+            ASSERT_NO_FATAL_FAILURE(expectNext(field.at(k), "field"));
+    };
+    expectNext(data.time, "time");
+    expectNext(static_cast<double>(data.points.size()), "points");
+    for (const Vector<double>& p : data.points)
+        for (const double x : {p.x, p.y, p.z}) ASSERT_NO_FATAL_FAILURE(expectNext(x, "coordinate"));
+    expectNext(static_cast<double>(data.ends.size()), "cells");
+    for (std::size_t cell = 0, k = 0; cell < data.ends.size(); ++cell) {
+        const auto end = static_cast<std::size_t>(data.ends[cell]);
+        expectNext(static_cast<double>(end - k), "corners of a cell");
+        for (; k < end; ++k) ASSERT_NO_FATAL_FAILURE(expectNext(data.corners[k], "corner"));
+    }
+    for (const PolyDataField& field : data.pointFields) expectField(field);
+    for (const PolyDataField& field : data.cellFields) expectField(field);
+    std::string rest;
+    EXPECT_FALSE(words >> rest) << rest;
+}
+
 TEST(PolyDataFile, isReadByVtk) {
-    const std::string python = "/usr/bin/python3";
-    if (support::isMissing(support::run(python + " -c 'import vtk'").exitCode == 0, "python3-vtk9"))
+    if (isVtkMissing())
         GTEST_SKIP() << support::without("python3-vtk9", "that VTK reads the files for ParaView");
     const TestFolder folder;
-    const std::string script = (folders::source / "SelfTests/Output/read_vtp.py").string();
+    const auto path = folder.path() / "a.vtp";
     for (const std::size_t triangles : {0, 1, 3000}) {
-        const PolyData data = example(triangles);
-        const auto path = folder.path() / "a.vtp";
-        writePolyData(path, data);
-        const auto result = support::run(python + " " + script + " " + path.string());
-        ASSERT_EQ(result.exitCode, 0) << result.output;
-        std::istringstream words(result.output);
-        double number = 0;
-        const auto expectNext = [&](double expected, const char* what) {
-            ASSERT_TRUE(words >> number) << what;
-            ASSERT_EQ(number, expected) << what;
-        };
-        const auto expectField = [&](const PolyDataField& field) {
-            std::string name;
-            words >> name;
-            EXPECT_EQ(name, field.name);
-            expectNext(static_cast<double>(field.components), "components");
-            for (std::size_t k = 0; k < field.size(); ++k)
-                ASSERT_NO_FATAL_FAILURE(expectNext(field.at(k), "field"));
-        };
-        expectNext(data.time, "time");
-        expectNext(static_cast<double>(data.points.size()), "points");
-        for (const Vector<double>& p : data.points)
-            for (const double x : {p.x, p.y, p.z}) ASSERT_NO_FATAL_FAILURE(expectNext(x, "coordinate"));
-        expectNext(static_cast<double>(data.ends.size()), "cells");
-        for (std::size_t cell = 0, k = 0; cell < data.ends.size(); ++cell) {
-            const auto end = static_cast<std::size_t>(data.ends[cell]);
-            expectNext(static_cast<double>(end - k), "corners of a cell");
-            for (; k < end; ++k) ASSERT_NO_FATAL_FAILURE(expectNext(data.corners[k], "corner"));
-        }
-        for (const PolyDataField& field : data.pointFields) expectField(field);
-        for (const PolyDataField& field : data.cellFields) expectField(field);
-        std::string rest;
-        EXPECT_FALSE(words >> rest) << rest;
+        writePolyData(path, example(triangles));
+        expectThatVtkReads(path, example(triangles));
     }
+}
+
+/// Also where one of the pieces has nothing.
+TEST(PolyDataFile, inPiecesIsReadByVtk) {
+    if (isVtkMissing())
+        GTEST_SKIP() << support::without("python3-vtk9", "that VTK reads the files for ParaView");
+    const TestFolder folder;
+    const auto index = folder.path() / "a.pvtp";
+    std::vector<std::string> names;
+    std::size_t points = 0, triangles = 0;
+    for (const std::size_t count : {0, 3, 0, 200}) {
+        PolyData piece = example(count);
+        piece.time = 0;  // VTK reads it in NAME.pvd only
+        points += piece.points.size(), triangles += piece.ends.size();
+        names.push_back(fmt::format("a-rank{}.vtp", names.size()));
+        writePolyData(folder.path() / names.back(), piece);
+    }
+    writePieces(index, example(0), names);
+    const PolyData read = readPolyData(index);
+    EXPECT_EQ(read.points.size(), points);
+    EXPECT_EQ(read.ends.size(), triangles);
+    expectThatVtkReads(index, read);
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
-"""Prints what VTK's own reader finds in a .vtp file: time, points, cells, fields, as words."""
+"""Prints what VTK's own reader finds in a .vtp or .pvtp file: time, points, cells, fields, as words."""
 import sys
 
 import vtk
 
-reader = vtk.vtkXMLPolyDataReader()
+reader = vtk.vtkXMLPPolyDataReader() if sys.argv[1].endswith(".pvtp") else vtk.vtkXMLPolyDataReader()
 reader.SetFileName(sys.argv[1])
 observed = []
 reader.AddObserver("ErrorEvent", lambda *_: observed.append("error"))
@@ -12,7 +12,8 @@ data = reader.GetOutput()
 if observed:
     sys.exit("VTK reports an error")
 
-words = [repr(data.GetFieldData().GetArray("TimeValue").GetValue(0)), data.GetNumberOfPoints()]
+time = data.GetFieldData().GetArray("TimeValue")
+words = [repr(time.GetValue(0)) if time else 0.0, data.GetNumberOfPoints()]
 for k in range(data.GetNumberOfPoints()):
     words += [repr(x) for x in data.GetPoint(k)]
 words.append(data.GetNumberOfCells())

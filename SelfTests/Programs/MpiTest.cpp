@@ -113,6 +113,8 @@ TEST_F(Mpi, allEndWhereOneFails) {
           {"step", "1", "Error: A grain of this rank has gone; the state after 0 steps is in [^\n]*\\."},
           {"output", "1", "Error: This rank cannot write\\."},
           {"disk", "0", "Error: [^\n]*cannot be written[^\n]*\\."},
+          {"piece", "1", "Error: [^\n]*-rank1\\.vtp cannot be [^\n]*\\."},
+          {"gather", "1", "Error: Ranks wait for each other in different calls[^\n]*\\."},
           {"term", "1", "SIGTERM has stopped the run at time [^\n]* after 120 steps; restart from [^\n]*\\."},
           {"kill", "1", ""}}) {
         SCOPED_TRACE(what);
@@ -129,7 +131,19 @@ TEST_F(Mpi, allEndWhereOneFails) {
         if (what == "setup") continue;
         EXPECT_NO_THROW(checkRestartFile(restart));
         EXPECT_FALSE(fs::exists(restart.string() + ".part"));
+        if (what != "piece") continue;
+        for (const auto& entry : fs::directory_iterator(own))  // the frame before is the last one
+            EXPECT_EQ(entry.path().string().find("000000150"), std::string::npos) << entry.path();
     }
+}
+
+/// Messages above 1 GiB go in parts; here above 1000 bytes.
+TEST_F(Mpi, longMessagesGoInParts) {
+    EXPECT_EQ(run(program + in("1") + " 200").exitCode, 0);
+    const ProgramResult result =
+        run("PENDULAR_MPI_PART_BYTES=1000 " + onRanks(3) + program + in("3") + " 200");
+    EXPECT_EQ(result.exitCode, 0) << result.output;
+    expectSameFiles(in("1"), in("3"), timed);
 }
 
 /// A rank that ends by itself, in the middle of a run, leaves the others waiting: half a minute.
@@ -147,6 +161,36 @@ TEST_F(LongMpi, allEndWhereOneHasEndedEarly) {
         EXPECT_EQ(countOf(result.output, "Error: A rank has ended while others waited for it"), 1u)
             << result.output;
         EXPECT_NO_THROW(checkRestartFile(restartFileOf(own + "/run")));
+    }
+}
+
+/// The same programs with a module made by MPICH (Debian: libmpich-dev, mpich), where that is installed, too.
+TEST_F(LongMpi, worksWithMpich) {
+    if (run("mpicxx.mpich --version && mpirun.mpich --version").exitCode != 0)
+        GTEST_SKIP() << without("libmpich-dev", "a run by MPICH");
+    const std::string module = in("PendularMpi.so");
+    const ProgramResult made =
+        run(fmt::format("mpicxx.mpich -std=c++20 -O2 -fPIC -shared -DFMT_SHARED -I{0} "
+                        "{0}/Kernel/Ranks/Mpi/MpiRanks.cpp -lfmt -o {1}",
+                        folders::source.string(), module));
+    ASSERT_EQ(made.exitCode, 0) << made.output;
+    const auto onMpich = [&](int count) {
+        return fmt::format("PENDULAR_MPI_MODULE={} timeout 300 mpirun.mpich -n {} ", module, count);
+    };
+    EXPECT_EQ(run(program + in("1") + " 200").exitCode, 0);
+    for (const int ranks : {2, 3}) {
+        const std::string own = in(std::to_string(ranks));
+        const ProgramResult begun = run(onMpich(ranks) + program + own + " 100");
+        EXPECT_EQ(begun.exitCode, 0) << begun.output;
+        const ProgramResult ended = run(onMpich(5 - ranks) + program + own + " 200");
+        EXPECT_EQ(ended.exitCode, 0) << ended.output;
+        expectSameFiles(in("1"), own, timed);
+    }
+    for (const std::string fault : {"setup", "step", "output", "piece", "gather"}) {
+        const ProgramResult result = run(onMpich(2) + program + in(fault) + " 200 " + fault + " 1");
+        EXPECT_NE(result.exitCode, 0);
+        EXPECT_NE(result.exitCode, 124) << "it has not ended by itself";
+        EXPECT_EQ(countOf(result.output, "Error: "), 1u) << result.output;
     }
 }
 

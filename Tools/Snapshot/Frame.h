@@ -23,14 +23,18 @@ inline PolyData readIfThere(const std::filesystem::path& path) {
     return std::filesystem::exists(path) ? readPolyData(path) : PolyData{};
 }
 
-/// The file of another kind that goes with NAME-particles-STEP.vtp: NAME-contacts-STEP.vtp. Empty if the file
-/// has another name.
+/// The file of another kind that goes with NAME-particles-STEP.vtp: NAME-contacts-STEP.vtp; of a frame in
+/// parts
+/// (.pvtp) the one in parts, if there is one. Empty if the file has another name.
 inline std::filesystem::path fileBeside(const std::filesystem::path& particles, std::string_view kind) {
     constexpr std::string_view own = "-particles-";
     std::string name = particles.filename().string();
     const std::size_t at = name.rfind(own);
     if (at == name.npos) return {};
-    return particles.parent_path() / name.replace(at, own.size(), fmt::format("-{}-", kind));
+    std::filesystem::path beside =
+        particles.parent_path() / name.replace(at, own.size(), fmt::format("-{}-", kind));
+    if (beside.extension() == ".pvtp" && !std::filesystem::exists(beside)) beside.replace_extension(".vtp");
+    return beside;
 }
 
 /// Throws InputError unless each contact has two ends and each identity is one number, which all that draws

@@ -11,11 +11,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
+#include <cstdlib>
+#include <deque>
 #include <optional>
 #include <thread>
 
-#include "Kernel/Base/InputError.h"
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Base/Stopwatch.h"
 #include "Kernel/Ranks/ProgramRanks.h"
@@ -26,19 +26,29 @@ namespace {
 
 /// So long (s) a rank that has failed waits for the first one to say so, and one for another that has ended.
 constexpr double patience = 30;
+/// After so long (s) a rank that waits tells another one what it waits for.
+constexpr double silence = 2;
+
+/// The bytes of a message that MPI, which counts them by an int, sends at once; longer ones go in parts. The
+/// environment variable is for tests.
+std::size_t largestPart() {
+    const char* const chosen = std::getenv("PENDULAR_MPI_PART_BYTES");
+    const std::size_t bytes = chosen ? std::strtoul(chosen, nullptr, 10) : 0;
+    return bytes > 0 ? std::min(bytes, std::size_t{1} << 30) : std::size_t{1} << 30;
+}
 
 void require(int result) {
     if (result != MPI_SUCCESS) throw AnotherRankFailed("MPI has failed.");
 }
 
-/// The length of a message as MPI counts it.
-int lengthOf(std::size_t bytes) {
-    if (bytes > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-        throw InputError(
-            "A message from one rank to another has more than 2 GiB; take more ranks, so that each has fewer "
-            "grains.");
-    return static_cast<int>(bytes);
-}
+/// What all ranks ask for together.
+enum class Call : std::int64_t { Swap, SwapWithNeighbours, Largest, AddUp };
+
+/// A call that a rank waits in. All ranks make the same calls in the same order.
+struct Waiting {
+    std::int64_t number = 0;
+    Call call = Call::Swap;
+};
 
 class MpiRanks final : public ProcessRanks {
 public:
@@ -47,8 +57,10 @@ public:
         // Only the thread that does the steps sends.
         MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &threads);
         MPI_Comm_dup(MPI_COMM_WORLD, &work);
+        MPI_Comm_dup(MPI_COMM_WORLD, &reductions);
         MPI_Comm_dup(MPI_COMM_WORLD, &failures);
         MPI_Comm_set_errhandler(work, MPI_ERRORS_RETURN);
+        MPI_Comm_set_errhandler(reductions, MPI_ERRORS_RETURN);
         MPI_Comm_set_errhandler(failures, MPI_ERRORS_RETURN);
         MPI_Comm_rank(work, &number);
         MPI_Comm_size(work, &all);
@@ -62,6 +74,7 @@ public:
 
     // NOLINTNEXTLINE(bugprone-exception-escape): it exchanges messages, not what two names stand for
     [[nodiscard]] std::vector<Message> swap(std::vector<Message> toEach) override {
+        begin(Call::Swap);
         lengthsTo.resize(ranks), lengthsFrom.resize(ranks);
         for (std::size_t q = 0; q < ranks; ++q) lengthsTo[q] = static_cast<std::int64_t>(toEach[q].size());
         wait([&](MPI_Request* request) {
@@ -69,35 +82,15 @@ public:
                                  request);
         });
         std::vector<Message> fromEach =
-            swapWithNeighbours(std::move(toEach), {lengthsFrom.begin(), lengthsFrom.end()});
+            sendAndTake(std::move(toEach), {lengthsFrom.begin(), lengthsFrom.end()});
         sent.clear();  // it may be the whole scene
         return fromEach;
     }
 
     [[nodiscard]] std::vector<Message> swapWithNeighbours(
         std::vector<Message> toEach, const std::vector<std::size_t>& bytesFromEach) override {
-        for (const std::size_t bytes : bytesFromEach) static_cast<void>(lengthOf(bytes));
-        for (const Message& message : toEach) static_cast<void>(lengthOf(message.size()));
-        got.assign(ranks, {});
-        sent = std::move(toEach);
-        std::vector<MPI_Request> requests;
-        for (std::size_t q = 0; q < ranks; ++q) {
-            if (q == own || bytesFromEach[q] == 0) continue;
-            got[q].resize(bytesFromEach[q]);
-            require(MPI_Irecv(got[q].data(), lengthOf(got[q].size()), MPI_BYTE, static_cast<int>(q), 0, work,
-                              &requests.emplace_back()));
-        }
-        for (std::size_t q = 0; q < ranks; ++q) {
-            if (q == own || sent[q].size() == 0) continue;
-            const std::string_view bytes = sent[q].all();
-            require(MPI_Isend(bytes.data(), lengthOf(bytes.size()), MPI_BYTE, static_cast<int>(q), 0, work,
-                              &requests.emplace_back()));
-        }
-        wait(requests);
-        std::vector<Message> fromEach;
-        for (std::size_t q = 0; q < ranks; ++q)
-            fromEach.push_back(q == own ? std::move(sent[q]) : Message(std::move(got[q])));
-        return fromEach;
+        begin(Call::SwapWithNeighbours);
+        return sendAndTake(std::move(toEach), bytesFromEach);
     }
 
     [[nodiscard]] double largest(double value) override {
@@ -106,8 +99,9 @@ public:
     }
 
     void beginLargest(double value) override {
+        begin(Call::Largest);
         given = std::isnan(value) ? INFINITY : value;  // MPI_MAX need not pass it on
-        require(MPI_Iallreduce(&given, &most, 1, MPI_DOUBLE, MPI_MAX, work, &reduction.emplace_back()));
+        require(MPI_Iallreduce(&given, &most, 1, MPI_DOUBLE, MPI_MAX, reductions, &reduction.emplace_back()));
     }
     [[nodiscard]] double endLargest() override {
         wait(reduction);
@@ -117,10 +111,11 @@ public:
     [[nodiscard]] double waited() const override { return waiting.seconds(); }
 
     void addUp(std::span<std::int64_t> integers) override {
+        begin(Call::AddUp);
         sums.assign(integers.begin(), integers.end());
         wait([&](MPI_Request* request) {
-            return MPI_Iallreduce(MPI_IN_PLACE, sums.data(), lengthOf(sums.size()), MPI_INT64_T, MPI_SUM,
-                                  work, request);
+            return MPI_Iallreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_INT64_T,
+                                  MPI_SUM, reductions, request);
         });
         std::ranges::copy(sums, integers.begin());
     }
@@ -128,7 +123,7 @@ public:
     void fail(std::string_view sentence) noexcept override {
         if (hasFailed) return;
         hasFailed = true;
-        told = ranks > 1 && own > 0 ? sentence : std::string_view();
+        toldFailure = ranks > 1 && own > 0 ? sentence : std::string_view();
         message = std::string(sentence.substr(0, longest));
         for (std::size_t q = 0; q < ranks; ++q)
             if (q != own)
@@ -137,7 +132,7 @@ public:
     }
 
     [[nodiscard]] std::string end() noexcept override {
-        std::string news;
+        std::string sentences;
         if (!hasFailed) sayGoodbye();
         MPI_Request all = MPI_REQUEST_NULL;
         MPI_Ibarrier(failures, &all);
@@ -146,23 +141,61 @@ public:
         for (int isThere = 0; MPI_Test(&all, &isThere, MPI_STATUS_IGNORE), isThere == 0; sched_yield()) {
             const bool before = hasFailed;
             if (const std::string sentence = failure(); !sentence.empty() && !before) {
-                news = sentence;
+                sentences = sentence;
                 begin = MPI_Wtime();  // from now on the others come here, too
             }
             waited = MPI_Wtime() - begin;
-            if (hasFailed && waited > patience) abort(news.empty() ? told : news);
+            if (hasFailed && waited > patience) abort(sentences.empty() ? toldFailure : sentences);
         }
         // What has come at the last moment.
-        if (const bool before = hasFailed; !before) news = failure();
+        if (const bool before = hasFailed; !before) sentences = failure();
         while (!failure().empty()) {}
         while (takeGoodbye()) {}
+        while (isThereNews()) {}
         MPI_Finalize();
-        return news;
+        return sentences;
     }
 
 private:
     static constexpr std::size_t longest = 4000;  // bytes of a sentence: so much is sent without waiting
     static constexpr int goodbye = 1;             // the tag of a message without content
+    static constexpr int stillWaits = 2;          // the tag of what a rank waits for
+
+    void begin(Call call) { waitsIn = {waitsIn.number + 1, call}; }
+
+    /// Calls start(first byte, bytes) for each part of a message.
+    template <class Start>
+    void startParts(std::size_t size, Start&& start) const {
+        for (std::size_t at = 0; at < size; at += part)
+            require(start(at, static_cast<int>(std::min(part, size - at))));
+    }
+    /// Between two ranks, messages come in the order in which they were sent.
+    std::vector<Message> sendAndTake(std::vector<Message> toEach,
+                                     const std::vector<std::size_t>& bytesFromEach) {
+        got.assign(ranks, {});
+        sent = std::move(toEach);
+        std::vector<MPI_Request> requests;
+        for (std::size_t q = 0; q < ranks; ++q) {
+            if (q == own) continue;
+            got[q].resize(bytesFromEach[q]);
+            startParts(got[q].size(), [&](std::size_t at, int bytes) {
+                return MPI_Irecv(got[q].data() + at, bytes, MPI_BYTE, static_cast<int>(q), 0, work,
+                                 &requests.emplace_back());
+            });
+        }
+        for (std::size_t q = 0; q < ranks; ++q) {
+            if (q == own) continue;
+            startParts(sent[q].size(), [&](std::size_t at, int bytes) {
+                return MPI_Isend(sent[q].all().data() + at, bytes, MPI_BYTE, static_cast<int>(q), 0, work,
+                                 &requests.emplace_back());
+            });
+        }
+        wait(requests);
+        std::vector<Message> fromEach;
+        for (std::size_t q = 0; q < ranks; ++q)
+            fromEach.push_back(q == own ? std::move(sent[q]) : Message(std::move(got[q])));
+        return fromEach;
+    }
 
     /// The sentence of a rank that has failed; empty if none has.
     std::string failure() noexcept {
@@ -200,6 +233,28 @@ private:
             throw RunError("A rank has ended while others waited for it.");
     }
 
+    /// Ranks that wait in different calls, as where only some call gather(), would do so for ever. Each that
+    /// has waited for long tells the next one in what: somewhere in this ring two of them differ.
+    void refuseOtherCalls(double waited) {
+        if (waited > silence && tellsOf < waitsIn.number && ranks > 1) {
+            tellsOf = waitsIn.number;
+            told.push_back(waitsIn);
+            MPI_Isend(&told.back(), sizeof(Waiting), MPI_BYTE, static_cast<int>((own + 1) % ranks),
+                      stillWaits, failures, &sending.emplace_back());
+        }
+        if (isThereNews() && news.number == waitsIn.number && news.call != waitsIn.call)
+            throw RunError(inOtherCalls);
+    }
+    /// What another rank waits in, or did.
+    bool isThereNews() noexcept {
+        int isThere = 0;
+        MPI_Status status;
+        MPI_Iprobe(MPI_ANY_SOURCE, stillWaits, failures, &isThere, &status);
+        if (isThere == 0) return false;
+        MPI_Recv(&news, sizeof news, MPI_BYTE, status.MPI_SOURCE, stillWaits, failures, MPI_STATUS_IGNORE);
+        return true;
+    }
+
     /// Where the others do not end by themselves, as when one is stuck.
     [[noreturn]] static void abort(const std::string& sentence) noexcept {
         if (!sentence.empty()) std::fprintf(stderr, "Error: %s\n", sentence.c_str());
@@ -222,6 +277,7 @@ private:
     /// another rank has failed, it never will be done.
     void wait(std::vector<MPI_Request>& requests) {
         const Stopwatch::Within within(waiting);
+        double began = 0;
         for (std::size_t tries = 0;; ++tries) {
             int isDone = 0;
             require(MPI_Testall(static_cast<int>(requests.size()), requests.data(), &isDone,
@@ -233,6 +289,8 @@ private:
             if (tries % 64 != 0) continue;
             if (const std::string sentence = failure(); !sentence.empty()) throw AnotherRankFailed(sentence);
             refuseToWaitForNobody();
+            if (began == 0) began = MPI_Wtime();
+            refuseOtherCalls(MPI_Wtime() - began);
         }
     }
     template <class Start>
@@ -250,12 +308,17 @@ private:
     std::vector<MPI_Request> reduction;  // that has begun
 
     Stopwatch waiting;
-    MPI_Comm work = MPI_COMM_NULL, failures = MPI_COMM_NULL;
+    // Reductions that some ranks call and others do not take nothing from exchanges: these wait.
+    MPI_Comm work = MPI_COMM_NULL, reductions = MPI_COMM_NULL, failures = MPI_COMM_NULL;
+    std::size_t part = largestPart();
+    Waiting waitsIn, news;     // of this rank; of the one before it
+    std::int64_t tellsOf = 0;  // the number of the call of which the next rank knows
+    std::deque<Waiting> told;  // while it is sent
     std::size_t own = 0, ranks = 1;
     std::size_t keptTries = 10000;  // of a wait, before others may have the processor
     bool hasFailed = false;         // this rank or another one
     std::optional<double> hasLeft;  // s, when another one was found to have ended
-    std::string told;               // by this rank, if it is not the first one, which says it by itself
+    std::string toldFailure;        // by this rank, if it is not the first one, which says it by itself
     std::string message;
     std::vector<MPI_Request> sending;
 };

@@ -28,7 +28,7 @@ public:
         setTimeMax(static_cast<double>(steps) * getTimeStep());
         setSaveCount(50);
         keepRestartFile();
-        addOutput(ParaViewOutput());
+        addOutput(ParaViewOutput().withParts(what == "piece"));
         if (std::filesystem::exists(restartFile())) restartFrom(restartFile());
     }
 
@@ -45,7 +45,8 @@ private:
         if (isDue("kill", 120)) std::raise(SIGKILL);
         if (isDue("term", 120)) std::raise(SIGTERM);
         if (isDue("leave", 120)) std::exit(0);
-        if (isDue("disk", 120)) {  // as a full disk: no file grows any more
+        if (isDue("gather", 120)) gather();
+        if (isDue("disk", 120) || isDue("piece", 120)) {  // as a full disk: no file grows any more
             std::signal(SIGXFSZ, SIG_IGN);
             const rlimit none{0, 0};
             setrlimit(RLIMIT_FSIZE, &none);
