@@ -108,9 +108,10 @@ HeldBits requireJoinable(ParticleHandler& particles, std::span<const std::uint32
     if (identities.empty()) throw InputError("A rigid body must have at least one grain.");
     for (std::size_t k = 0; k < identities.size(); ++k) {
         const GrainReference grain = particles.getObject(identities[k]);
-        if (particles.store().bodies.contains(identities[k]) ||
-            std::ranges::count(identities, identities[k]) > 1)
+        if (particles.store().bodies.contains(identities[k]))
             throw InputError(fmt::format("particle {} is in a rigid body already.", identities[k]));
+        if (std::ranges::count(identities, identities[k]) > 1)
+            throw InputError(fmt::format("particle {} is given twice for one rigid body.", identities[k]));
         if (grain.getHeldAxes() != particles.getObject(identities[0]).getHeldAxes())
             throw InputError(
                 fmt::format("particles {} and {} are not held alike, and can be in no rigid body; "

@@ -80,7 +80,7 @@ void Scene::setAdaptiveTimeStep(double share, std::optional<double> largestStep)
 }
 
 StepForError Scene::stepForError(double error, std::optional<double> speed) {
-    requireSetUp("a time step for an error");
+    requireSetUp("time step for an error");
     return findStepForError(*this, error, speed);
 }
 

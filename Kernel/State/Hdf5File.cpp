@@ -29,7 +29,10 @@ namespace {
 
 /// The library is not made for several threads, and scenes of several may be read at the same time.
 std::recursive_mutex library;
-using Alone = std::scoped_lock<std::recursive_mutex>;
+struct Alone : std::scoped_lock<std::recursive_mutex> {
+    using std::scoped_lock<std::recursive_mutex>::scoped_lock;
+    const hdf5::WithoutMessages messages;
+};
 
 }  // namespace
 

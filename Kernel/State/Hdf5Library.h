@@ -48,8 +48,8 @@ inline hid_t nativeType(NumberKind kind) {
 }
 
 /// The library prints no messages of its own, and does not try to complete files when the program ends (a
-/// full disk is not less full then). In a program of somebody else, who may use the library too, it does both
-/// as that program has it.
+/// full disk is not less full then). In a program of somebody else, who may use the library too, it completes
+/// files as that program has it, and prints nothing while WithoutMessages lives.
 inline void makeQuiet() {
     static const bool once = [] {
         if (isHosted()) return false;
@@ -59,5 +59,22 @@ inline void makeQuiet() {
     }();
     static_cast<void>(once);
 }
+
+/// While it lives, the library prints no messages, also in a program of somebody else, who is told by
+/// exceptions.
+class WithoutMessages {
+public:
+    WithoutMessages() {
+        H5Eget_auto2(H5E_DEFAULT, &print, &argument);
+        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    }
+    WithoutMessages(const WithoutMessages&) = delete;
+    WithoutMessages& operator=(const WithoutMessages&) = delete;
+    ~WithoutMessages() { H5Eset_auto2(H5E_DEFAULT, print, argument); }
+
+private:
+    H5E_auto2_t print = nullptr;
+    void* argument = nullptr;
+};
 
 }  // namespace pendular::hdf5

@@ -54,6 +54,7 @@ void WallHandler::keepForces() {
 }
 
 void WallHandler::refuseNumber(std::size_t number) const {
+    if (number < walls.size()) throw InputError(fmt::format("Wall {} was removed.", number));
     throw InputError(
         fmt::format("There is no wall {}; the scene has {} (counted from 0).", number, walls.size()));
 }

@@ -434,7 +434,7 @@ TEST(RigidBody, refusesWhatCannotBeJoined) {
     EXPECT_TRUE(contains(refusal({}), "at least one grain"));
     EXPECT_TRUE(contains(refusal({0, 7}), "There is no particle 7"));
     EXPECT_TRUE(contains(refusal({0, 2}), "particles 0 and 2 are not held alike"));
-    EXPECT_TRUE(contains(refusal({0, 0}), "particle 0 is in a rigid body already"));
+    EXPECT_TRUE(contains(refusal({0, 0}), "particle 0 is given twice for one rigid body"));
     EXPECT_TRUE(contains(refusal({0, 1}), "overlap by 0.0005 m"));
     BodyMass mass{-1, {0.75 * r, 0, 0}, Eigen::Matrix3d::Identity()};
     EXPECT_TRUE(contains(refusal({0, 1}, mass), "mass = -1 kg"));

@@ -11,9 +11,8 @@ PAGE = (ROOT / "Tools/Python/HOW-DO-I.md").read_text()
 def sections():
     for part in re.split(r"^### ", PAGE, flags=re.M)[1:]:
         title, _, text = part.partition("\n")
-        code = "\n".join(re.findall(r"```python\n(.*?)```", text, flags=re.S))
-        if code:
-            yield pytest.param(code, id=title.replace(" ", "_"))
+        for number, code in enumerate(re.findall(r"```python\n(.*?)```", text, flags=re.S)):
+            yield pytest.param(code, id=f"{title.replace(' ', '_')}{number or ''}")
 
 
 FIRST = re.search(r"```python\n(.*?)```", PAGE, flags=re.S)[1]

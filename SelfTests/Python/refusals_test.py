@@ -28,7 +28,7 @@ MISUSES = {
     "NaN as a field": (lambda s: s.glass.set(sliding_friction_coefficient=nan), "sliding_friction_coefficient"),
     "modulus without ratio": (lambda s: s.glass.set(young_modulus=1e6), "together"),
     "modulus of a linear law": (
-        lambda s: s.add_species("LinearViscoelastic", young_modulus=1e6, poisson_ratio=0.3), "names are stiffness|names are dissipation|names are collision"),
+        lambda s: s.add_species("LinearViscoelastic", young_modulus=1e6, poisson_ratio=0.3), "names are stiffness|names are restitution"),
     "restitution above 1": (lambda s: s.add_species("HertzianViscoelastic", **{**GLASS, "restitution_coefficient": 2}),
                             "sliding|restitution"),
     "get what is not there": (lambda s: s.glass.get("stifness"), "effective_shear_modulus"),

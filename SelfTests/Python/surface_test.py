@@ -2,6 +2,7 @@
 import copy
 import pickle
 import re
+import threading
 
 import numpy as np
 import pytest
@@ -38,7 +39,9 @@ def test_objects_have_texts_and_refuse_copies(make, text, advice):
 
 
 @pytest.mark.parametrize("wrong, right", [("timestep", "time_step"), ("gravitiy", "gravity"), ("endtime", "end_time"),
-                                          ("positions", "position")])
+                                          ("positions", "position"), ("velocities", "velocity"), ("radii", "radius"),
+                                          ("dt", "time_step"), ("max_time", "end_time"), ("number_of_threads", "threads"),
+                                          ("g", "gravity"), ("film_volume", "film")])
 def test_an_attribute_that_is_nearly_one_of_the_scene(wrong, right):
     """It would be set, and do nothing."""
     scene = tower()
@@ -199,6 +202,23 @@ def test_where_the_time_goes():
     assert times["motion_s"] > 0 and times["energy_ledger_s"] == 0
 
 
+def test_a_scene_that_another_thread_runs_has_a_text():
+    scene, began = tower(), threading.Event()
+    scene.every_steps(1, lambda s: began.set())
+
+    def run():
+        with pytest.raises(pendular.RunStopped):
+            scene.run(1e9)
+
+    runs = threading.Thread(target=run)
+    runs.start()
+    began.wait()
+    texts = {repr(scene) for _ in range(1000)}
+    scene.stop()
+    runs.join()
+    assert texts <= {"<pendular.Scene, in which another thread is at work>", repr(scene)} | {t for t in texts if " 4 grains" in t}
+
+
 def test_walls_as_polygons():
     """A box of planes is cut off at its edges: six squares with the corners of the box."""
     scene = pendular.Scene()
@@ -220,7 +240,9 @@ def test_walls_are_drawn():
         return [len(c.get_paths()) for c in axes.collections if isinstance(c, PolyCollection)]
 
     assert drawn(pendular.draw(tower())) == [1] and drawn(pendular.draw(tower(), walls=False)) == []
-    assert drawn(pendular.draw(pendular.Scene())) == [0]
+    assert drawn(pendular.draw(pendular.Scene())) == [0] == drawn(pendular.draw(pendular.Scene(), color="velocity_m_per_s"))
+    with pytest.raises(TypeError, match="must be a Scene"):
+        pendular.draw("x")
 
 
 def test_settings_are_read_again():

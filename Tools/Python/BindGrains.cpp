@@ -51,10 +51,14 @@ py::array add(PythonScene& scene, const SpeciesHandle& species, const ArrayLike&
     for (py::ssize_t k = 0; k < count; ++k, place += 3) {
         SphericalParticle& grain = checked[static_cast<std::size_t>(k)];
         grain.setSpecies(&species);
-        grain.setRadius(radii.number(k)), grain.setPosition({place[0], place[1], place[2]});
-        if (axes != HeldAxes{}) grain.setHeldAxes(axes);
-        grain.setVelocity(velocities.vector(k)), grain.setAngularVelocity(spins.vector(k));
-        grain.setLiquidVolume(films.number(k));
+        try {
+            grain.setRadius(radii.number(k)), grain.setPosition({place[0], place[1], place[2]});
+            if (axes != HeldAxes{}) grain.setHeldAxes(axes);
+            grain.setVelocity(velocities.vector(k)), grain.setAngularVelocity(spins.vector(k));
+            grain.setLiquidVolume(films.number(k));
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("add_grains(), row {}: {}", k, error.what()));
+        }
     }
     grains.reserve(grains.getSize() + checked.size());
     std::vector<std::int64_t> identities;

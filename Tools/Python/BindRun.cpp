@@ -22,7 +22,13 @@ const Integrator& integratorNamed(const std::string& name) {
 double chooseTimeStep(PythonScene& scene, double stepsInContact) {
     checkValue("choose_time_step", "steps_in_contact", stepsInContact, "", positive);
     Scene& of = scene.scene();
-    of.setTimeStep(std::min(of.stabilityLimit(), of.shortestContactTime() / stepsInContact));
+    const double step = std::min(of.stabilityLimit(), of.shortestContactTime() / stepsInContact);
+    if (!(step < infinity))
+        throw InputError(
+            "choose_time_step() finds no contact that could be: it comes after grains are there, or inlets "
+            "that "
+            "add them.");
+    of.setTimeStep(step);
     return of.getTimeStep();
 }
 
@@ -116,11 +122,11 @@ void bindRun(SceneClass& scene) {
     scene
         .def(
             "_run_to", [](PythonScene& s, double time, const py::object& p) { s.runTo(time, p); },
-            py::arg("time"), py::arg("progress") = py::none())
+            py::arg("until"), py::arg("progress") = py::none())
         .def(
             "_run_steps",
             [](PythonScene& s, std::size_t count, const py::object& p) { s.runSteps(count, p); },
-            py::arg("count"), py::arg("progress") = py::none())
+            py::arg("steps"), py::arg("progress") = py::none())
         .def("initialise", &PythonScene::initialise,
              "Checks the scene, and finds the forces at its start, or reads the restart file; run() does so "
              "by itself.")

@@ -38,6 +38,9 @@ Values valuesOf(const py::kwargs& given) {
         const std::string name = py::str(key);
         values[camelCase(name)] = valueOf<double>(value, name, "a number");
     }
+    if (values.contains("poissonRatio") && values.contains("elasticModulus") &&
+        !values.contains("youngModulus"))
+        values.insert({"youngModulus", values.extract("elasticModulus").mapped()});
     return values;
 }
 
@@ -60,13 +63,40 @@ std::vector<double> takenBy(const NamedSetter& setter, const Values& values) {
     return taken;
 }
 
+/// As users give a value of a setter.
+std::string nameOf(const NamedSetter& setter, const SetterValue& value) {
+    if (setter.values.size() == 1) return snakeCase(setter.name);
+    if (value.name == "elasticModulus") return "young_modulus";
+    return value.name == "restitution" ? "restitution_coefficient" : snakeCase(value.name);
+}
+
+/// "collision_time, restitution_coefficient and mass", of each setter that takes this value and others; empty
+/// where there is none.
+std::string togetherWith(AnyLaws& laws, const std::string& name) {
+    std::string all;
+    for (const NamedSetter& setter : laws.setters()) {
+        std::vector<std::string> names;
+        bool isIts = false;
+        for (const SetterValue& value : setter.values) {
+            names.push_back(nameOf(setter, value));
+            isIts = isIts || names.back() == name || snakeCase(value.name) == name;
+        }
+        if (names.size() == 1 || !isIts) continue;
+        const std::string last = names.back();
+        names.pop_back();
+        all += fmt::format("{}{} and {}", all.empty() ? "" : ", or ",
+                           listOfNames({names.begin(), names.end()}), last);
+    }
+    return all;
+}
+
 /// @param name as it was not found
 [[noreturn]] void refuseName(AnyLaws& laws, const std::string& name) {
+    if (const std::string names = togetherWith(laws, snakeCase(name)); !names.empty())
+        throw InputError(fmt::format("{}: {} are given together.", laws.getName(), names));
     std::set<std::string> known;
-    if (laws.has("effectiveElasticModulus")) known = {"young_modulus", "poisson_ratio"};
     for (const NamedSetter& setter : laws.setters())
-        for (const SetterValue& value : setter.values)
-            known.insert(snakeCase(setter.values.size() == 1 ? setter.name : value.name));
+        for (const SetterValue& value : setter.values) known.insert(nameOf(setter, value));
     const std::vector<std::string_view> names(known.begin(), known.end());
     unknownName(fmt::format("field of {}", laws.getName()), snakeCase(name), names);
 }
@@ -167,15 +197,17 @@ void setValues(AnyLaws& laws, const Values& values) {
     }
 }
 
-/// law, field, unit, range and value of all that can be set.
+/// law, field, unit, range and value of all that can be set, each once.
 py::list describe(AnyLaws& laws) {
     py::list rows;
+    std::set<std::string> listed;
     for (const NamedSetter& setter : laws.setters())
         for (const SetterValue& value : setter.values) {
-            const bool isWhole = setter.values.size() == 1;
-            rows.append(py::make_tuple(std::string(setter.law), snakeCase(isWhole ? setter.name : value.name),
-                                       std::string(value.unit), value.range.text(value.unit),
-                                       isWhole && setter.get ? setter.get() : unset));
+            const std::string name = nameOf(setter, value);
+            if (!listed.insert(name).second) continue;
+            rows.append(py::make_tuple(std::string(setter.law), name, std::string(value.unit),
+                                       value.range.text(value.unit),
+                                       setter.values.size() == 1 && setter.get ? setter.get() : unset));
         }
     return rows;
 }
@@ -221,7 +253,15 @@ void bindSpecies(py::module_& module, SceneClass& scene) {
             "Sets fields by their names, also during a run: from the next step on. Raises InputError.")
         .def(
             "get",
-            [](const SpeciesHandle& s, const std::string& name) { return s.species->get(camelCase(name)); },
+            [](const SpeciesHandle& s, const std::string& name) {
+                for (const NamedSetter& setter : s.species->setters())
+                    if (setter.name == camelCase(name)) return s.species->get(setter.name);
+                if (!togetherWith(*s.species, name).empty())
+                    throw InputError(fmt::format(
+                        "{} can be set and not read, as fields are computed from it; fields() has them.",
+                        name));
+                refuseName(*s.species, camelCase(name));
+            },
             py::arg("name"), "A field by its name; NaN where it is not set.")
         .def(
             "fields", [](const SpeciesHandle& s) { return describe(*s.species); },

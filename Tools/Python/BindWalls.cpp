@@ -326,7 +326,7 @@ void bindWalls(py::module_& module, SceneClass& scene) {
         .def("add_solid", &addSolid, py::arg("species"), py::arg("normals"), py::arg("points"), py::kw_only(),
              py::arg("centre"), py::arg("radius"), py::arg("forces") = false,
              comment("intersectionOfHalfSpaces",
-                     "species: the material of its surface. normals: N x 3, into the solid's outside, of "
+                     "species: the material of its surface. normals: N x 3, into the solid, of "
                      "any length; points: N x 3, m, one on each plane. centre and radius: m, of a sphere "
                      "around all places where grains come. forces: they are kept, as by keep_forces()."))
         .def(

@@ -12,6 +12,7 @@
 #include "Kernel/Simulation/Program.h"
 #include "Python/Version.h"
 #include "Tools/Python/Bindings.h"
+#include "Tools/Python/ExplainArguments.h"
 #include "Tools/Python/MoreSpecies.h"
 
 /// The module pendular._kernel.
@@ -39,6 +40,7 @@ void setLog(const py::object& function) {
 
 /// A library of species calls the kernel in this module, so it must see its functions.
 void loadSpecies(const std::filesystem::path& library) {
+    if (library.empty()) throw InputError("load_species() needs the name of a file; it is ''.");
     static int here = 0;
     Dl_info where{};
     if (dladdr(&here, &where) == 0 || !dlopen(where.dli_fname, RTLD_NOW | RTLD_NOLOAD | RTLD_GLOBAL))
@@ -46,17 +48,32 @@ void loadSpecies(const std::filesystem::path& library) {
     loadSpeciesLibrary(library);
 }
 
-/// A sentence of the kernel with names as they are in Python: setPeriodic() is set_periodic(), and a field
-/// slidingStiffness is sliding_stiffness. Words of paths and in quotes stay.
+/// A sentence of the kernel with names as they are in Python: setPeriodic() is set_periodic(), a field
+/// slidingStiffness is sliding_stiffness, and species have no ending. Words of paths and in quotes stay.
 std::string inPython(std::string sentence) {
-    for (const auto& [name, known] : {std::pair{"runTo()", "run()"},
-                                      {"runSteps()", "run()"},
-                                      {"solve()", "run()"},
-                                      {"finishRun()", "finish()"},
-                                      {"setTimeMax()", "end_time"},
-                                      {"setMaterial()", "set_heat_material()"},
-                                      {"addMaterial()", "add_bond_material()"},
-                                      {"Conduction::Constriction", "law='constriction'"}})
+    for (const auto& [name, known] :
+         {std::pair{"runTo()", "run()"},
+          {"runSteps()", "run()"},
+          {"solve()", "run()"},
+          {"finishRun()", "finish()"},
+          {"setTimeMax()", "end_time"},
+          {"setMaterial()", "set_heat_material()"},
+          {"addMaterial()", "add_bond_material()"},
+          {"Conduction::Constriction", "law='constriction'"},
+          {"speciesHandler.setPairType<Type>(a, b)", "set_pair(a, b, type=NAME)"},
+          {"particleHandler.holdAll(HeldAxes::inPlane()) or setSystemDimensions(2)", "hold_all('in_plane')"},
+          {"setGrainsAreDiscs(), setParticleDimensions(2)", "set_grains_are_discs()"},
+          {"integrators::velocityVerlet", "'velocity_verlet'"},
+          {"requestStop()", "stop()"},
+          {"getForce()", "force"},
+          {"getTorque()", "torque"},
+          {"keepForces() is called, of the wall or of the wallHandler,",
+           "keep_forces() of the wall or keep_wall_forces() is called"},
+          {"give --energy-interval-s (or keepEnergyLedger()) as it was: above 0 where the "
+           "file has 1, 0 where it has 0",
+           "call keep_energy_ledger() where the file has 1 alone"},
+          {"intersectionOfHalfSpaces:", "add_solid():"},
+          {"instantiated species", "species"}})
         for (std::size_t at = sentence.find(name); at != std::string::npos; at = sentence.find(name))
             sentence.replace(at, std::string_view(name).size(), known);
     static const std::regex words(R"((^|[\s(:,;.])([a-z]{2,}(?:[A-Z][a-z0-9]*)+)(?=[\s(),:;.]|$))");
@@ -66,7 +83,9 @@ std::string inPython(std::string sentence) {
         made.append(from, (*word)[2].first).append(snakeCase(word->str(2)));
         from = (*word)[2].second;
     }
-    return made.append(from, sentence.cend());
+    made.append(from, sentence.cend());
+    static const std::regex species(R"re((^|[\s("'])([A-Za-z]\w*)Species(?=[\s)":',;]|\.?$|\.\s))re");
+    return std::regex_replace(made, species, "$1$2");
 }
 
 template <class Error>
@@ -77,6 +96,24 @@ void registerError(py::module_& module, const char* name, PyObject* base) {
             if (thrown) std::rethrow_exception(thrown);
         } catch (const Error& error) {
             PyErr_SetString(type.ptr(), inPython(error.what()).c_str());
+        }
+    });
+}
+
+/// What is left to pybind11 and the library of C++.
+void registerOtherErrors() {
+    py::register_exception_translator([](std::exception_ptr thrown) {
+        try {
+            if (thrown) std::rethrow_exception(thrown);
+        } catch (const py::cast_error&) {
+            PyErr_SetString(
+                PyExc_TypeError,
+                "A value in an argument, or what a function has returned, is of another type than is "
+                "asked for here.");
+        } catch (const std::filesystem::filesystem_error& error) {
+            const std::string text = fmt::format("The file '{}' cannot be used: {}.", error.path1().string(),
+                                                 error.code().message());
+            PyErr_SetString(PyExc_OSError, text.c_str());
         }
     });
 }
@@ -120,6 +157,7 @@ PYBIND11_MODULE(_kernel, module) {
     registerError<InputError>(module, "InputError", PyExc_ValueError);
     registerError<RunError>(module, "RunError", PyExc_RuntimeError);
     registerError<RunStopped>(module, "RunStopped", PyExc_RuntimeError);
+    registerOtherErrors();
 
     SceneClass scene(module, "Scene",
                      collectGarbage<PythonScene, &visitScene, [](PythonScene& of) { of.clearObjects(); }>());
@@ -162,6 +200,7 @@ PYBIND11_MODULE(_kernel, module) {
         "_fail_on_ranks", [](const std::string& sentence) { failOnRanks(sentence); }, py::arg("sentence"));
     module.def("_stop_all", &PythonScene::stopAll);
     module.def("_set_log", &setLog, py::arg("function"));
+    explainArguments(module);  // of all that is bound above
 }
 
 }  // namespace pendular::python

@@ -9,20 +9,24 @@ import re
 import sys
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).parent / "Package"))
+from _signature import signature  # noqa: E402  (of the package, which needs numpy)
+
 HEAD = '''# Written by make-stubs.py from the module.
 import os
 from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike as _NumpyArrayLike
 
+ArrayLike = Union[_NumpyArrayLike, Sequence[Any]]
 Vector = Union[Sequence[float], numpy.ndarray]
 
 class _Array:
     def __get__(self, instance: Any, owner: Any) -> numpy.ndarray: ...
     def __set__(self, instance: Any, value: ArrayLike) -> None: ...
 '''
-TYPES = [(r"(?:pendular\.)?_kernel\.", ""), (r"numpy\.ndarray\[[\w.]+\]", "numpy.ndarray"), (r"\bobject\b", "Any"),
+TYPES = [(r"\bint\[\d+\]", "int"), (r"(?:pendular\.)?_kernel\.", ""), (r"numpy\.ndarray\[[\w.]+\]", "numpy.ndarray"), (r"\bobject\b", "Any"),
          (r"\bfunction\b", "Callable[..., Any]"), (r"\bos\.PathLike\b", "Union[str, os.PathLike[str]]"),
          (r"(?<![\w\[])dict\b", "Dict[str, Any]"), (r"\btuple\b", "Tuple[Any, ...]"), (r"\blist\b", "List[Any]")]
 
@@ -35,43 +39,23 @@ def typed(text):
     return text
 
 
-def split(arguments):
-    """At commas outside of brackets and quotes."""
-    parts, depth, now, quote = [], 0, "", ""
-    for letter in arguments:
-        if quote:
-            quote = "" if letter == quote else quote
-        elif letter in "'\"":
-            quote = letter
-        depth += (letter in "([{<") - (letter in ")]}>") if not quote else 0
-        if letter == "," and depth == 0 and not quote:
-            parts.append(now.strip())
-            now = ""
-        else:
-            now += letter
-    return parts + [now.strip()] if now.strip() else parts
-
-
-def signature(doc, name):
+def header(doc):
     """(arguments, type of the answer), or None."""
-    found = re.match(rf"{re.escape(name)}\((.*)\) -> (.+?)$", (doc or "").splitlines()[0] if doc else "")
+    found = signature(doc)
     if not found:
         return None
     arguments = []
-    for part in split(found[1]):
-        own, default = (part.split(" = ", 1) + [None])[:2] if " = " in part else (part, None)
-        key, _, kind = own.partition(": ")
+    for name, kind, default in found.arguments:
         if not kind:
-            arguments.append({"**kwargs": "**kwargs: float"}.get(key, key))
-        elif key in ("self", "arg0") and not arguments:
+            arguments.append({"**kwargs": "**kwargs: float"}.get(name, name))
+        elif name in ("self", "arg0") and not arguments:
             arguments.append("self")
         else:
-            kind = typed(kind)
+            kind = typed(kind).replace("List[", "Sequence[")
             if default == "None" and not kind.startswith(("Optional", "Any")):
                 kind = f"Optional[{kind}]"
-            arguments.append(f"{key}: {kind}" + (" = ..." if default is not None else ""))
-    answer = "numpy.ndarray" if found[2] == "Vector" else typed(found[2])
-    return ", ".join(arguments), answer
+            arguments.append(f"{name}: {kind}" + (" = ..." if default is not None else ""))
+    return ", ".join(arguments), "numpy.ndarray" if found.answer == "Vector" else typed(found.answer)
 
 
 def text_of(doc, indent):
@@ -83,7 +67,7 @@ def text_of(doc, indent):
 
 
 def function(name, value, indent):
-    found = signature(value.__doc__, name)
+    found = header(value.__doc__)
     if not found:
         return None
     arguments, answer = found
@@ -92,7 +76,7 @@ def function(name, value, indent):
 
 def attribute(name, value):
     """A property."""
-    getter = signature("f" + (value.fget.__doc__ or "").strip(), "f")
+    getter = header(value.fget.__doc__)
     if not getter:
         return None
     if value.fset and "numpy" in getter[1]:

@@ -58,6 +58,7 @@ from ._kernel import (  # noqa: E402  (which is in the folder that was chosen)
     superquadric,
     terminal_speed,
 )
+from . import _arguments as _arguments
 from ._kernel import __version__ as _version
 from ._log import show_log as _show_log
 from ._view import view

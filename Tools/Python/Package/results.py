@@ -18,7 +18,7 @@ Columns = Dict[str, np.ndarray]
 def _open(file: Path) -> Any:
     import h5py
 
-    if not os.path.exists(file):
+    if not os.path.isfile(file):
         raise _kernel.InputError(f"There is no file {os.fspath(file)}.")
     try:
         return h5py.File(file, "r")
@@ -53,9 +53,12 @@ def table(file: Path) -> pandas.DataFrame:
     """A table of a run (a file NAME-energy.csv, ...) with the units in the names of its columns."""
     import pandas
 
-    if not os.path.exists(file):
+    if not os.path.isfile(file):
         raise _kernel.InputError(f"There is no file {os.fspath(file)}.")
-    return pandas.read_csv(file)
+    try:
+        return pandas.read_csv(file)
+    except (UnicodeDecodeError, pandas.errors.ParserError, pandas.errors.EmptyDataError) as problem:
+        raise _kernel.InputError(f"{os.fspath(file)} is no table of numbers with commas between them.") from problem
 
 
 def restart(file: Path) -> Columns:
@@ -82,6 +85,8 @@ def draw(scene: _kernel.Scene, color: Union[str, np.ndarray, None] = None, *, al
     import matplotlib.pyplot as plt
     from matplotlib.collections import EllipseCollection, PolyCollection
 
+    if not isinstance(scene, _kernel.Scene):
+        raise TypeError(f"draw(): scene = {scene!r} must be a Scene.")
     if along not in ("x", "y", "z"):
         raise _kernel.InputError(f"draw() looks along 'x', 'y' or 'z'; not {along!r}.")
     across, up = {"x": (1, 2), "y": (0, 2), "z": (0, 1)}[along]
@@ -123,7 +128,7 @@ def _colors(columns: Columns, color: Union[str, np.ndarray, None]) -> Tuple[np.n
         if color not in columns:
             raise _kernel.InputError(f"Grains have no column {color!r}; they have {', '.join(columns)}.")
         values = columns[color]
-        return (np.linalg.norm(values.reshape(count, -1), axis=1) if values.ndim > 1 else values), color
+        return np.sqrt((values**2).sum(axis=tuple(range(1, values.ndim)))) if values.ndim > 1 else values, color
     values = np.asarray(color, float)
     if values.shape != (count,):
         raise _kernel.InputError(f"color must be a number for each of {count} grains; it has the shape {values.shape}.")

@@ -11,6 +11,15 @@ from . import _kernel
 
 Progress = Union[bool, Callable[[float], None], None]
 
+# Attributes of scenes under other usual names.
+_OTHER_WORDS = {other: [word] for word, others in {
+    "position": "pos positions centers centres", "velocity": "velocities vel", "spin": "spins angular_velocity angular_velocities",
+    "radius": "radii", "mass": "masses", "film": "films film_volume film_volumes liquid_volume", "force": "forces",
+    "torque": "torques", "identity": "identities ids", "temperature": "temperatures",
+    "time_step": "dt delta_t step_size", "end_time": "max_time time_max t_max tmax t_end final_time maximum_time",
+    "gravity": "g gravitational_acceleration", "threads": "number_of_threads num_threads n_threads nthreads thread_count",
+}.items() for other in others.split()}
+
 
 class Scene(_kernel.Scene):
     """A scene of grains, and its run.
@@ -45,14 +54,21 @@ class Scene(_kernel.Scene):
                 walls.append(self.add_plane(species, outward, highest, forces=forces))
         return walls
 
-    @property
-    def temperature(self) -> np.ndarray:
-        """K, N: of the grains, after conduct_heat(); also the column `temperature`."""
-        return self.column("temperature")
+    if TYPE_CHECKING:  # mypy lets a property be assigned only what it returns
+        temperature: _kernel._Array
+    else:
 
-    @temperature.setter
-    def temperature(self, values: Any) -> None:
-        self.set_column("temperature", values)
+        @property
+        def temperature(self) -> np.ndarray:
+            """K, N: of the grains, after conduct_heat(); also the column `temperature`."""
+            try:
+                return self.column("temperature")
+            except _kernel.InputError as problem:
+                raise _kernel.InputError("Grains have no temperature before conduct_heat().") from problem
+
+        @temperature.setter
+        def temperature(self, values: Any) -> None:
+            self.set_column("temperature", values)
 
     def run(self, until: Optional[float] = None, *, steps: Optional[int] = None, progress: Progress = False) -> Scene:
         """Begins the run, or goes on with it, until a time (s), or for so many steps; it may be called again.
@@ -87,7 +103,7 @@ class Scene(_kernel.Scene):
                 if fixed:
                     raise AttributeError(f"A Scene's {fixed}.")
             elif name not in self.__dict__:
-                near = difflib.get_close_matches(name, dir(type(self)), 1, 0.8)
+                near = _OTHER_WORDS.get(name.lower()) or difflib.get_close_matches(name, dir(type(self)), 1, 0.8)
                 if near:
                     fixed = _why_fixed(type(self), near[0])
                     advice = f"its {fixed}." if fixed else f"did you mean {near[0]}?"
@@ -103,7 +119,10 @@ class Scene(_kernel.Scene):
             self.finish()
 
     def __repr__(self) -> str:
-        return f"<pendular.Scene {self.name!r}: {len(self)} grains, {self.time:.6g} s>"
+        try:
+            return f"<pendular.Scene {self.name!r}: {len(self)} grains, {self.time:.6g} s>"
+        except _kernel.RunError:
+            return "<pendular.Scene, in which another thread is at work>"
 
 
 def _why_fixed(kind: type, name: str) -> str:

@@ -1,0 +1,111 @@
+#include "Tools/Python/ExplainArguments.h"
+
+#include <string>
+#include <unordered_map>
+
+/// What is said of arguments that no function takes: a sentence of Package/_arguments.py, in the place of the
+/// types of C++ that pybind11 lists.
+///
+/// pybind11 has one function in C for all that it binds, which Python calls. Each record of it is given
+/// another one, which calls that, and looks only where an error comes back: 1 ns a call. (A last overload for
+/// all other arguments would convert the arguments of each call twice, and help() would show it.)
+
+namespace pendular::python {
+
+namespace {
+
+using FunctionOfC = PyObject* (*)(PyObject*, PyObject*, PyObject*);
+
+FunctionOfC calledBefore = nullptr;
+/// A function that is bound, under the name that users know: add_plane, Scene, time_step.
+struct Known {
+    std::string name;
+    py::handle attribute;  // that it sets
+    py::handle function{};
+};
+/// By the object that C hands on, which lives as long as the module.
+std::unordered_map<PyObject*, Known>& known() {
+    static auto* const all = new std::unordered_map<PyObject*, Known>;
+    return *all;
+}
+PyMethodDef* recordOf(py::handle function) {
+    return reinterpret_cast<PyCFunctionObject*>(function.ptr())->m_ml;
+}
+
+py::handle explain;  // of Package/_arguments.py
+
+/// Whether pybind11 has found that the function does not take its arguments, or Numbers.h that a vector is
+/// none; not what a function that it called raised.
+bool isOfArguments(const Known& of, const py::object& text) {
+    const char* const said = text ? PyUnicode_AsUTF8(text.ptr()) : nullptr;
+    if (!said) return false;
+    const std::string_view all(said);
+    if (all.starts_with("A vector must be ")) return true;  // by vectorOf()
+    return all.starts_with(std::string(recordOf(of.function)->ml_name) + "(): incompatible ") &&
+           all.find("The following argument types are supported") != std::string_view::npos;
+}
+
+/// The sentence; null where there is none.
+PyObject* sentenceFor(const Known& of, const py::object& said, PyObject* arguments, PyObject* named) {
+    const auto doc = py::reinterpret_steal<py::object>(PyObject_GetAttrString(of.function.ptr(), "__doc__"));
+    const py::object byName = named ? py::reinterpret_borrow<py::object>(named) : py::dict();
+    return PyObject_CallFunction(explain.ptr(), "OsOOOO", said.ptr(), of.name.c_str(),
+                                 doc ? doc.ptr() : Py_None, arguments, byName.ptr(),
+                                 of.attribute ? of.attribute.ptr() : Py_None);
+}
+
+PyObject* callAndExplain(PyObject* self, PyObject* arguments, PyObject* named) {
+    PyObject* const answer = calledBefore(self, arguments, named);
+    if (answer || !explain) return answer;
+    PyObject *type = nullptr, *value = nullptr, *trace = nullptr;
+    PyErr_Fetch(&type, &value, &trace);
+    const auto of = known().find(self);
+    const bool mayBe = PyErr_GivenExceptionMatches(type, PyExc_TypeError) ||
+                       PyErr_GivenExceptionMatches(type, PyExc_ValueError);
+    const auto said = py::reinterpret_steal<py::object>(mayBe && value ? PyObject_Str(value) : nullptr);
+    if (of != known().end() && isOfArguments(of->second, said))
+        if (PyObject* const sentence = sentenceFor(of->second, said, arguments, named)) {
+            Py_XDECREF(value);
+            value = sentence;
+        }
+    PyErr_Clear();
+    PyErr_Restore(type, value, trace);
+    return nullptr;
+}
+
+void explainOne(py::handle function, const Known& of) {
+    if (!function || function.is_none()) return;
+    if (PyInstanceMethod_Check(function.ptr())) function = PyInstanceMethod_Function(function.ptr());
+    if (!PyCFunction_Check(function.ptr())) return;
+    PyMethodDef* const record = recordOf(function);
+    PyObject* const self = PyCFunction_GetSelf(function.ptr());
+    const auto ours = reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(&callAndExplain));
+    if (!self || !PyCapsule_CheckExact(self) || record->ml_meth == ours) return;
+    calledBefore = reinterpret_cast<FunctionOfC>(reinterpret_cast<void (*)()>(record->ml_meth));
+    record->ml_meth = ours;
+    known().emplace(self, Known{of.name, of.attribute, function});
+}
+
+void explainClass(py::handle type) {
+    const std::string own = py::str(type.attr("__name__"));
+    for (const auto& [key, member] : py::dict(type.attr("__dict__"))) {
+        const std::string name = py::str(key);
+        if (py::isinstance(member, reinterpret_cast<PyObject*>(&PyProperty_Type))) {
+            explainOne(member.attr("fset"), {name, member});
+            explainOne(member.attr("fget"), {name, {}});
+        } else explainOne(member, {name == "__init__" ? own : name, {}});
+    }
+}
+
+}  // namespace
+
+void explainArguments(py::module_& module) {
+    for (const auto& [key, member] : py::dict(module.attr("__dict__"))) {
+        if (PyType_Check(member.ptr())) explainClass(member);
+        else explainOne(member, {std::string(py::str(key)), {}});
+    }
+    module.def(
+        "_set_explanation", [](py::object function) { explain = function.release(); }, py::arg("function"));
+}
+
+}  // namespace pendular::python
