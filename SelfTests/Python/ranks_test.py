@@ -84,3 +84,19 @@ def test_numbers_of_processes():
     done = start(SET_UP + "print(pendular.rank_count())\nimport os\n"
                  "open(f'rank-{pendular.rank()}', 'w')\nscene.run(steps=1)", 2)
     assert done.stdout == "2\n" and Path("rank-0").exists() and Path("rank-1").exists(), done.stderr
+
+
+def test_grains_that_stay_on_their_ranks():
+    """Frames in parts have all of them, and so has the hash of all."""
+    done = start(SET_UP + """
+scene.write_paraview(1e-4, parts=True)
+scene.leave_grains_on_ranks()
+scene.run(steps=30)
+own = len(scene)
+scene.finish()
+print(own)
+""", 2)
+    assert done.returncode == 0, done.stderr
+    assert 0 < int(done.stdout) < 400
+    pieces = sorted(Path().glob("run-particles-*-rank*.vtp"))
+    assert pieces and len(pieces) == 2 * len(list(Path().glob("run-particles-*.pvtp")))

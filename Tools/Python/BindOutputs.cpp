@@ -61,9 +61,8 @@ private:
 using Functions = std::map<std::string, py::function>;
 
 template <class Output>
-void addFrames(PythonScene& scene, double interval, bool contacts, bool contactPoints, bool stress,
-               bool doubles, const Functions& numbers, const Functions& vectors) {
-    Output output;
+void addFrames(PythonScene& scene, Output output, double interval, bool contacts, bool contactPoints,
+               bool stress, bool doubles, const Functions& numbers, const Functions& vectors) {
     output.withInterval(interval).withContacts(contacts).withContactPoints(contactPoints);
     output.withStress(stress).withDoubles(doubles);
     for (const auto& [name, function] : numbers) {
@@ -80,12 +79,21 @@ void addFrames(PythonScene& scene, double interval, bool contacts, bool contactP
     scene.scene().addOutput(std::move(output));
 }
 
-/// How both kinds of frames are bound.
-template <class Output>
-void bindFrames(SceneClass& scene, const char* name, const char* text) {
-    scene.def(name, &addFrames<Output>, py::arg("interval"), py::kw_only(), py::arg("contacts") = true,
+void addParaView(PythonScene& scene, double interval, bool contacts, bool contactPoints, bool stress,
+                 bool doubles, const Functions& numbers, const Functions& vectors, bool parts) {
+    addFrames(scene, ParaViewOutput().withParts(parts), interval, contacts, contactPoints, stress, doubles,
+              numbers, vectors);
+}
+void addHdf5(PythonScene& scene, double interval, bool contacts, bool contactPoints, bool stress,
+             bool doubles, const Functions& numbers, const Functions& vectors) {
+    addFrames(scene, Hdf5Output(), interval, contacts, contactPoints, stress, doubles, numbers, vectors);
+}
+/// How both kinds of frames are bound. @param more arguments and the text
+template <class Function, class... More>
+void bindFrames(SceneClass& scene, const char* name, Function function, const More&... more) {
+    scene.def(name, function, py::arg("interval"), py::kw_only(), py::arg("contacts") = true,
               py::arg("contact_points") = false, py::arg("stress") = false, py::arg("doubles") = false,
-              py::arg("fields") = Functions{}, py::arg("vectors") = Functions{}, text);
+              py::arg("fields") = Functions{}, py::arg("vectors") = Functions{}, more...);
 }
 
 template <class Table>
@@ -96,17 +104,16 @@ void addTable(PythonScene& scene, double interval) {
 }  // namespace
 
 void bindOutputs(SceneClass& scene) {
-    bindFrames<ParaViewOutput>(
-        scene, "write_paraview",
+    bindFrames(
+        scene, "write_paraview", &addParaView, py::arg("parts") = false,
         "Writes NAME.pvd, which ParaView opens, with a frame at each multiple of the interval (s).\n\n"
         "contacts, contact_points, stress: these as well; doubles: of 64 bits, not of 32. fields, vectors: "
         "what else the grains are to have, a function for each name (which ends with the unit): f(scene) "
-        "returns N numbers, or N x 3.");
-    bindFrames<Hdf5Output>(
-        scene, "write_hdf5",
-        "Writes NAME-fields.h5, which frames() reads, with a frame at each multiple of "
-        "the interval (s); contacts, contact_points, stress, doubles, fields and vectors are "
-        "as in write_paraview().");
+        "returns N numbers, or N x 3. parts: on several ranks, each writes a file of its own grains.");
+    bindFrames(scene, "write_hdf5", &addHdf5,
+               "Writes NAME-fields.h5, which frames() reads, with a frame at each multiple of "
+               "the interval (s); contacts, contact_points, stress, doubles, fields and vectors are "
+               "as in write_paraview().");
     scene
         .def("write_energy", &addTable<EnergyFile>, py::arg("interval"),
              comment("EnergyFile", "interval: s, between two rows."))
