@@ -54,6 +54,7 @@ private:
         else if (tag.name != "/DataArray") section = tag.name;
     }
     void takeGrid(const vtk::Tag& tag) {
+        if (hasGrid) throw std::runtime_error("has two grids");
         const auto extent = wordsIn<long long>(tag, "WholeExtent", 6);
         const auto origin = wordsIn<double>(tag, "Origin", 3), spacing = wordsIn<double>(tag, "Spacing", 3);
         count = 1;

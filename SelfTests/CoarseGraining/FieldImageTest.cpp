@@ -96,6 +96,8 @@ TEST(FieldImage, thatIsNoneIsRefused) {
           {"Origin=\"", "Origin=\"x", "3 numbers"},
           {"ImageData\" version", "PolyData\" version", "only 'ImageData'"},
           {"<ImageData", "<PolyData", "no image"},
+          {"</ImageData>", "<ImageData WholeExtent=\"0 0 0 0 0 0\" Origin=\"0 0 0\" Spacing=\"1 1 1\">",
+           "two grids"},
           {"<AppendedData", "<Appended", "appended"}}) {
         const std::string text = refused(from, to);
         EXPECT_TRUE(support::contains(text, words)) << from;

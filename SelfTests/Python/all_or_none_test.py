@@ -53,6 +53,14 @@ def test_values_of_a_material_are_all_or_none():
         assert (sand.get("density"), sand.get("stiffness")) == (2500, 300)
 
 
+def test_what_was_not_set_stays_so():
+    scene = pendular.Scene()
+    sand = scene.add_species("LinearViscoelastic", density=2500)
+    with pytest.raises(pendular.InputError):
+        sand.set(stiffness=300, dissipation=-1)
+    assert np.isnan(sand.get("stiffness"))
+
+
 @pytest.mark.parametrize("name, wrong", [
     ("velocity", [[1, 1, 1], [1, 1, 1], [np.nan, 1, 1], [1, 1, 1]]),
     ("position", [[1, 1, 1], [1, 1, 2], [np.inf, 1, 1], [1, 1, 4]]),
@@ -192,3 +200,4 @@ def test_a_copy_of_the_process_leaves_files_alone():
     scene.run(steps=5)
     scene.finish()
     assert len(pendular.table("run-energy.csv")) == 11
+

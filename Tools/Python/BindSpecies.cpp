@@ -185,14 +185,15 @@ void refuseContradictions(const AnyLaws& laws, const std::vector<PlannedCall>& p
 void setValues(AnyLaws& laws, const Values& values) {
     const std::vector<PlannedCall> plan = planOf(laws, values);
     refuseContradictions(laws, plan);
-    std::vector<std::pair<NamedSetter, double>> before;
-    for (const NamedSetter& setter : laws.setters())
-        if (setter.gives.empty() && setter.get) before.emplace_back(setter, setter.get());
+    std::vector<std::pair<double*, double>> before;
+    for (const NamedField& field : laws.fields()) before.emplace_back(field.value, *field.value);
+    auto* const species = dynamic_cast<AnySpecies*>(&laws);
+    const double density = species ? species->getDensity() : unset;
     try {
         for (const PlannedCall& planned : plan) planned.call();
     } catch (...) {
-        for (const auto& [setter, value] : before)
-            if (isSet(value)) setter.set({&value, 1});
+        for (const auto& [place, value] : before) *place = value;
+        if (isSet(density) && species->getDensity() != density) species->setDensity(density);
         throw;
     }
 }

@@ -19,8 +19,10 @@ namespace {
 std::string shown(py::handle given) {
     std::string text =
         py::str(" ").attr("join")(py::str(py::repr(given)).attr("split")()).cast<std::string>();
-    if (text.size() > 60) text = text.substr(0, 57) + "...";
-    return text;
+    if (text.size() <= 60) return text;
+    std::size_t end = 57;
+    while ((static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // within a letter of UTF-8
+    return text.substr(0, end) + "...";
 }
 
 /// (4, 2)

@@ -125,7 +125,17 @@ private:
 PythonScene::PythonScene() = default;
 PythonScene::~PythonScene() = default;
 
-void PythonScene::letInterruptsWait() { interrupts = std::make_unique<WaitingInterrupts>(*this); }
+/// One that was on its way is raised here, where Python runs for the first time, and waits as well.
+void PythonScene::letInterruptsWait() {
+    try {
+        interrupts = std::make_unique<WaitingInterrupts>(*this);
+    } catch (const py::error_already_set& error) {
+        if (!error.matches(PyExc_KeyboardInterrupt)) throw;
+        isInterrupted = true;
+        nextLook = 0;
+        interrupts = std::make_unique<WaitingInterrupts>(*this);
+    }
+}
 
 void PythonScene::noteInterrupt() {
     if (asking == 0 || isInterrupted) throw keyboardInterrupt();

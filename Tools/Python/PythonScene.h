@@ -87,8 +87,8 @@ public:
     auto ask(const Questions& questions) {
         const py::gil_scoped_acquire python;
         const Counted here(asking);
-        if (running && !interrupts) letInterruptsWait();
         try {
+            if (running && !interrupts) letInterruptsWait();
             return questions();
         } catch (const py::error_already_set& error) {
             endBy(error);
