@@ -65,6 +65,7 @@ inline void makeQuiet() {
 class WithoutMessages {
 public:
     WithoutMessages() {
+        makeQuiet();  // before the library is used at all
         H5Eget_auto2(H5E_DEFAULT, &print, &argument);
         H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     }
