@@ -191,6 +191,68 @@ def test_maps_of_fields(serve, write_frames):
         assert page.problems() == []
 
 
+# Answers whose address has the word `late` come when they are let go; those with the word `broken` never do.
+HOLD = """
+window.held = [], window.late = window.broken = null;
+const real = window.fetch;
+window.fetch = (address, ...more) => {
+    const has = (word) => word && address.startsWith("api/") && address.includes(word);
+    if (has(window.broken)) return Promise.reject(new Error("The line is down."));
+    if (!has(window.late)) return real(address, ...more);
+    return new Promise((done) => held.push(() => real(address, ...more).then((answer) => { done(answer); setTimeout(() => { window.came = true; }, 200); })));
+};
+"""
+CHOOSE = "window.choose = (select, value) => { select.value = value; select.dispatchEvent(new Event('change')); };"
+
+
+def test_answers_that_come_late_or_not_at_all(serve, write_frames):
+    """What was chosen last is what is shown, also where the answer to a choice before comes after it."""
+    write_frames("fields", "one")
+    write_frames("picture", "wet")
+    server = serve()
+    with browser.page() as page:
+        page.open(server, "run=one%2Frun")
+        page.wait("pendular.maps?.size === 2 && [...pendular.maps.values()].every((map) => map.loads > 0)")
+        page.js(HOLD + CHOOSE + "window.plane = pendular.maps.get('run-coarse.pvd')")
+        page.js("window.late = 'field=velocity'; choose(plane.fieldSelect, 'velocity_m_per_s.z'); choose(plane.fieldSelect, 'density_kg_per_m3')")
+        page.wait("plane.map.content.unit === 'kg/m^3' && held.length === 1")
+        page.js("held.pop()()")
+        page.wait("window.came")
+        assert page.js("return [plane.field, plane.fieldSelect.value, plane.map.content.unit]") == ["density_kg_per_m3", "density_kg_per_m3", "kg/m^3"]
+        # The first answer of a map does not come: it is asked for again, as long as it takes.
+        told = page.js("window.broken = 'api/map'; window.other = new plane.constructor(plane.id, plane.name);"
+                       "return other.setTimes(plane.times).then(() => other.setTimes(plane.times)).then(() => document.getElementById('told').textContent)")
+        assert told == "The line is down." and page.js("return other.loads ?? 0") == 0
+        assert page.js("window.broken = null; return other.setTimes(plane.times).then(() => other.setTimes(plane.times)).then(() => [other.loads, document.getElementById('told').textContent])") == [1, ""]
+
+        page.go(server, "run=wet%2Frun")
+        page.wait("pendular.viewer?.loads > 0")
+        page.js(HOLD + CHOOSE + "window.names = [...pendular.viewer.fieldSelect.options].map(({value}) => value).filter((name) => name !== pendular.viewer.field)")
+        page.js("window.late = 'field='; for (const name of names.slice(0, 2)) choose(pendular.viewer.fieldSelect, name); window.late = null; window.loads = pendular.viewer.loads; held.pop()()")
+        page.wait("pendular.viewer.loads === loads + 2")
+        assert page.js("return pendular.viewer.field === names[1] && pendular.viewer.fieldSelect.value === names[1]")
+        assert page.problems() == []
+
+
+def test_tables_of_ones_own(root, serve, write_frames):
+    """A grain's path is a chart, though its columns are those of a profile: times x places would be 1.6e9 here."""
+    write_frames("fields", "one")
+    head, own = "time_s,z_m,velocity_m_per_s\n", root / "one"
+    (own / "run-path.csv").write_text(head + "".join(f"{k * 1e-4:g},{-k * k * 1e-9:.12g},{k * 1e-5:g}\n" for k in range(40000)))
+    (own / "run-pair.csv").write_text(head + "0,1,0\n0,2,0\n")  # one time with two places, until there is more
+    server = serve()
+    with browser.page() as page:
+        page.open(server, "run=one%2Frun")
+        page.js("window.chart = (name) => pendular.charts.charts.get(name)")
+        page.wait("chart('run-path.csv')?.chart?.data.datasets[0]?.data.length > 100 && chart('run-line.csv')?.map && chart('run-pair.csv')?.map")
+        assert page.js("const {map, table} = chart('run-path.csv'); return [!map, table.values[0].length]") == [True, 40000]
+        with (own / "run-pair.csv").open("a") as file:
+            file.write("".join(f"{k},{1 - k * k},0\n{k},{2 - k * k},0\n" for k in range(1, 5)))
+        page.wait("!chart('run-pair.csv').map && chart('run-pair.csv').chart?.data.datasets[0].data.length === 10")
+        assert page.js("const {element} = chart('run-pair.csv'); return [element.querySelectorAll('canvas.map').length, element.querySelectorAll('.chart canvas').length, element.querySelectorAll('input').length]") == [0, 1, 2]
+        assert page.problems() == []
+
+
 def test_on_a_telephone(serve, write_frames):
     write_frames("picture", "wet")
     write_frames("fields", "one")

@@ -26,3 +26,47 @@ def test_what_is_taken_is_given():
             assert {name.strip() for name in names.split(",")} <= given, (file, other)
 
 
+TABLES = """
+import assert from "node:assert";
+const { isProfile, Table } = await import(process.argv[1]);
+const count = 300, most = 60000, head = ["time_s", "z_m", "density_kg_per_m3"];
+const rows = (length, row) => Array.from({ length }, (_, k) => row(k));
+const isMap = (list, columns = head) => isProfile({ columns, values: columns.map((_, k) => list.map((row) => row[k])) });
+const profile = rows(count, (k) => [Math.floor(k / 20), k % 20, k]);
+
+// Times that each have the same places: a map, also while the rows of the last time come. (One row may be anything.)
+for (let length = 2; length <= count; ++length) assert(isMap(profile.slice(0, length)), length);
+for (const list of [[], profile.slice(0, 1)]) assert(!isMap(list));
+assert(isMap(profile.map(([t, z]) => [t, z / 20, NaN])));
+// Twice as many places, half of which have no rows, as after two runs with other grids; with more than that it is no map.
+assert(isMap(profile.map(([t, z]) => [t, z + (t < 7.5 ? 0 : 20), 1])));
+assert(!isMap(profile.map(([t, z]) => [t, z + 20 * (t % 3), 1])));
+// Paths: of a grain that falls, that rests, that rests and had a row twice; of two that fall.
+for (const path of [(k) => [k, -k * k, 1], (k) => [k, 0, 1], (k) => [Math.max(k - 1, 0), Math.min(k, 1), 1], (k) => [Math.floor(k / 2), -k, 1]])
+    assert(!isMap(rows(count, path)));
+assert(!isMap(profile, ["time_s", "z_m"]) && !isMap(profile, ["time_s", "x_m", "y_m"]) && !isMap(profile, ["z_m", "time_s", "a"]));
+
+// What a table keeps as it grows, in pieces that end within a time.
+async function grown(all, piece) {
+    globalThis.fetch = async (address) => {
+        const from = Number(new URLSearchParams(address.split("?")[1]).get("from")), some = all.slice(from, from + piece);
+        return { ok: true, json: async () => ({ columns: head, rows: some, next: from + some.length, begins: from === 0 && some.length > 0 }) };
+    };
+    const table = new Table("run", "table.csv");
+    assert(await table.grow());
+    return table;
+}
+const path = await grown(rows(most, (k) => [k, -k * k, 1]), 7001);
+assert(!isProfile(path) && path.values[0].length <= 40000 && path.values[0].every((t, k) => k === 0 || t > path.values[0][k - 1]));
+const long = await grown(rows(5 * most, (k) => [Math.floor(k / 20), k % 20, 1]), 7001), perTime = new Map();
+for (const time of long.values[0]) perTime.set(time, (perTime.get(time) ?? 0) + 1);
+assert(isProfile(long) && long.values[0].length <= 200000 && [...perTime.values()].every((number) => number === 20));
+assert(perTime.has(5 * most / 20 - 1));
+"""
+
+
+@pytest.mark.skipif(not shutil.which("node"), reason="node is not installed")
+def test_which_tables_are_maps():
+    """A path of a grain has columns as a profile has, but times x places would be the square of its rows."""
+    done = subprocess.run(["node", "--input-type=module", "--eval", TABLES, (SOURCE / "table.js").as_uri()], capture_output=True, text=True, timeout=100)
+    assert done.returncode == 0, done.stderr

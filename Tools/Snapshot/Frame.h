@@ -24,8 +24,7 @@ inline PolyData readIfThere(const std::filesystem::path& path) {
 }
 
 /// The file of another kind that goes with NAME-particles-STEP.vtp: NAME-contacts-STEP.vtp; of a frame in
-/// parts
-/// (.pvtp) the one in parts, if there is one. Empty if the file has another name.
+/// parts (.pvtp) the one in parts, if there is one. Empty if the file has another name.
 inline std::filesystem::path fileBeside(const std::filesystem::path& particles, std::string_view kind) {
     constexpr std::string_view own = "-particles-";
     std::string name = particles.filename().string();

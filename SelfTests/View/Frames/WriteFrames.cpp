@@ -1,10 +1,15 @@
 // Writes runs that the tests of `view` look at, by the kernel's own writers.
-//   ViewFrames picture FOLDER          a frame with grains, a bridge, a shape, a droplet and a mesh of known
-//   places ViewFrames hdf5 FOLDER             the same, but for the shape, as an HDF5 frame ViewFrames fields
-//   FOLDER           fields of one grain at two times, in one, two and three directions ViewFrames damaged
-//   FOLDER KIND     a frame as no run writes it: lines (contacts without ends), ends (a contact with
-//                                      four), identity (of nine numbers)
-//   ViewFrames lattice FOLDER N BRIDGES FRAMES    N grains in a lattice, with about so many bridges
+//
+// ViewFrames picture FOLDER: a frame with grains, a bridge, a shape, a droplet and a mesh of known places
+//
+// ViewFrames hdf5 FOLDER: the same, but for the shape, as an HDF5 frame
+//
+// ViewFrames fields FOLDER: fields of one grain at two times, in one, two and three directions
+//
+// ViewFrames damaged FOLDER KIND: a frame as no run writes it: lines (contacts without ends), ends
+// (a contact with four), identity (of nine numbers)
+//
+// ViewFrames lattice FOLDER N BRIDGES FRAMES: N grains in a lattice, with about so many bridges
 
 #include <cmath>
 #include <cstdlib>

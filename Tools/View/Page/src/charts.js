@@ -1,12 +1,11 @@
 import { CategoryScale, Chart, Decimation, Legend, LinearScale, LineController, LineElement, PointElement, Tooltip } from "chart.js";
-import { get } from "./api.js";
-import { isProfile, ProfileMap } from "./maps.js";
+import { ProfileMap } from "./maps.js";
+import { isProfile, Table } from "./table.js";
 import { make, number, tell } from "./text.js";
 
 Chart.register(CategoryScale, Decimation, Legend, LinearScale, LineController, LineElement, PointElement, Tooltip);
 
 const palette = ["#2673d9", "#d55e00", "#009e73", "#cc79a7", "#8a6d00", "#56b4e9", "#b3261e", "#7a52c7"];
-const mostRows = 20000;  // that a chart keeps: beyond, every second one goes
 
 /** The colours of the page, so that text can be read in light and dark. */
 function takeColours() {
@@ -30,51 +29,6 @@ export function lineChart(canvas, { x, y, points = false }) {
     });
 }
 
-/** A table of a run as it grows: columns as lists of numbers. */
-export class Table {
-    columns = [];
-    values = [];
-    next = 0;
-
-    constructor(id, name) {
-        this.id = id;
-        this.name = name;
-    }
-
-    /** Takes the rows that have come; returns whether there are some. */
-    async grow() {
-        let grew = false;
-        for (;;) {
-            const { columns, rows, next, begins } = await get("table", { id: this.id, name: this.name, from: this.next });
-            if (begins) [this.columns, this.values] = [columns, columns.map(() => [])];
-            for (const row of rows) this.values.forEach((column, k) => column.push(row[k] ?? NaN));
-            grew ||= rows.length > 0 || begins;
-            this.next = next;
-            this.#thin();
-            if (rows.length === 0) return grew;
-        }
-    }
-
-    points(column, x = 0) {
-        const [xs, ys] = [this.values[x] ?? [], this.values[column] ?? []];
-        return xs.map((value, k) => ({ x: value, y: ys[k] })).filter((p) => Number.isFinite(p.x) && Number.isFinite(p.y));
-    }
-
-    /** Of a table with places, whole times go. */
-    #thin() {
-        while ((this.values[0]?.length ?? 0) > (isProfile(this) ? 10 : 2) * mostRows) {
-            let number = -1, before = NaN;
-            const keeps = this.values[0].map((time) => {
-                if (!isProfile(this) || time !== before) ++number;
-                before = time;
-                return number % 2 === 0;
-            });
-            if (keeps.every(Boolean)) return;
-            this.values = this.values.map((column) => column.filter((_, k) => keeps[k]));
-        }
-    }
-}
-
 /** Whether the first column grows, as times do; a list of grains is no chart. */
 function isChart({ columns, values }) {
     return columns.length > 1 && values[0].every((x, k) => k === 0 || x >= values[0][k - 1]);
@@ -86,7 +40,8 @@ export class TableChart {
         this.table = new Table(id, name);
         this.canvas = make("canvas", { role: "img", "aria-label": `chart of ${name}` });
         this.boxes = make("div", { class: "columns", role: "group", "aria-label": `columns of ${name}` });
-        this.body = make("div", {}, make("div", { class: "chart" }, this.canvas), this.boxes);
+        this.parts = [make("div", { class: "chart" }, this.canvas), this.boxes];
+        this.body = make("div", {}, ...this.parts);
         this.element = make("section", { class: "panel" }, make("h3", {}, name), this.body);
     }
 
@@ -96,9 +51,11 @@ export class TableChart {
         } catch (problem) {
             return tell(problem.message);
         }
-        if (isProfile(this.table)) return this.#showMap();
-        this.element.hidden = !isChart(this.table);
+        const isMap = isProfile(this.table);
+        this.element.hidden = !isMap && !isChart(this.table);
         if (this.element.hidden) return;
+        if (isMap !== Boolean(this.map)) this.#become(isMap);
+        if (isMap) return this.map.show(this.table);
         this.chart ??= this.#begin();
         this.#draw();
     }
@@ -108,13 +65,12 @@ export class TableChart {
         this.isOver = true;
     }
 
-    #showMap() {
-        if (!this.map) {
-            this.chart?.destroy();
-            this.map = new ProfileMap(this.table.name);
-            this.body.replaceChildren(this.map.element);
-        }
-        this.map.show(this.table);
+    /** A map, or a chart: the first rows alone may tell of the other one. */
+    #become(isMap) {
+        this.chart?.destroy();
+        this.chart = null;
+        this.map = isMap ? new ProfileMap(this.table.name) : null;
+        this.body.replaceChildren(...(isMap ? [this.map.element] : this.parts));
     }
 
     #begin() {

@@ -1,5 +1,6 @@
 import { get } from "./api.js";
-import { line, lineChart, Table } from "./charts.js";
+import { line, lineChart } from "./charts.js";
+import { Table } from "./table.js";
 import { make, tell } from "./text.js";
 import { Viewer } from "./viewer.js";
 

@@ -107,6 +107,7 @@ export class FieldMap {
     slice = "";
     shown = -1;
     times = [];
+    turn = 0;  // of what is asked for
 
     constructor(id, name) {
         Object.assign(this, { id, name, map: new HeatMap(name), told: new Teller() });
@@ -120,29 +121,33 @@ export class FieldMap {
             this.slicing, make("div", { class: "time" }, this.timeSlider, this.when));
     }
 
-    /** The times (s) that there are now; the last one is followed where it was shown. */
+    /** The times (s) that there are now; the last one is followed where it was shown. What has failed is tried again. */
     async setTimes(times) {
         const isLast = this.shown < 0 || this.shown === this.times.length - 1, grew = times.length !== this.times.length;
         this.times = times;
         this.timeSlider.max = times.length - 1;
-        if (!grew) return;
+        if (!grew && !this.hasFailed) return;
         if (isLast || this.shown >= times.length) this.shown = times.length - 1;
         await this.#load();
     }
 
     async #load() {
+        const turn = ++this.turn;
         try {
             const frame = this.shown, words = { id: this.id, name: this.name, frame, field: this.field, normal: this.normal, slice: this.slice };
             const content = await getColumns("map", words);
-            if (frame !== this.shown) return;  // another one has been asked for since
+            if (turn !== this.turn) return;  // something else has been asked for since
             this.#offer(content);
             const field = content.fields.find(({ name }) => name === content.field.split(".")[0]);
             this.map.show({ values: content.value, unit: field.unit, isSpace: true, across: this.#axis(content.across), up: this.#axis(content.up) });
             this.timeSlider.value = frame;
             this.when.textContent = `${number(this.times[frame])} s, ${frame + 1} of ${this.times.length}`;
             this.loads = (this.loads ?? 0) + 1;
+            this.hasFailed = false;
             this.told.clear();
         } catch (problem) {
+            if (turn !== this.turn) return;
+            this.hasFailed = true;
             this.told.say(problem.message);
         }
     }
@@ -168,11 +173,6 @@ export class FieldMap {
         this.sliceSlider.max = normal.places.length - 1;
         this.sliceSlider.value = slice;
     }
-}
-
-/** Whether a table is of fields along one direction: times, each with the same places behind it. */
-export function isProfile({ columns, values }) {
-    return columns.length > 2 && columns[0] === "time_s" && /^[xyzr]_m$/.test(columns[1]) && !/^[xyzr]_m$/.test(columns[2]) && values[0].length > 0;
 }
 
 /** A table of fields along one direction as a map of a column: time across, place up. */

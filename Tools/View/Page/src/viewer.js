@@ -160,7 +160,7 @@ export class Viewer {
         const first = this.fields.length === 0;
         this.origin ??= next.origin;
         this.fields = next.fields;
-        this.field = next.field;  // the wished one, if there is such a field
+        if (this.field === words.field) this.field = next.field;  // the wished one, if there is such a field; unless another is wished by now
         if (this.isOver) return;
         this.shown = frame;
         scene.show(next);
