@@ -32,7 +32,7 @@ def test_a_bridge_of_three_is_stable_up_to_a_gap():
     push = "set vertex x x + 0.02*y where not on_constraint 1 and not on_constraint 2 and not on_constraint 3"
     for gap, stands in ((0.4, True), (0.6, False)):
         lowest, second, third, _ = module.eigenvalues(gap, 40, 0.6)
-        assert lowest == pytest.approx(second, rel=1e-4) and third > 2
+        assert lowest == pytest.approx(second, rel=1e-5) and third > 2
         assert (lowest > 0) == stands
         said = module.evolve(gap, 40, 0.6, 3, ["U", *3 * ["hessian_seek"], *3 * ["hessian"], module.SHOW, push, "U", "{g 300}",
                                                module.SHOW])
