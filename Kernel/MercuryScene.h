@@ -54,8 +54,8 @@ public:
 
     /// A driver's own forces on a grain that can move, by grain->addForce(), at the end of each step; those
     /// of contacts and gravity act beside them (there it is gravity that one overrides). getTime() is the
-    /// start of the step. Called once more at set-up, to see whether a driver has any.
-    virtual void computeExternalForces(MercuryForcedGrain /*grain*/) { forces.sleep(); }
+    /// start of the step. This one adds nothing, so that an override may call it.
+    virtual void computeExternalForces(MercuryForcedGrain /*grain*/) { plainForcesWereAsked = true; }
     /// Without effect: walls act by themselves.
     void computeForcesDueToWalls(const GrainReference& /*grain*/) {}
 
@@ -199,17 +199,35 @@ public:
 private:
     void takeOver(const MercuryRestart& state, const std::filesystem::path& file);
     void addGrainsOf(const std::vector<GrainRow>& rows);
-    /// Asks for forces once: the function above says that the driver has none. Where there are no grains yet
-    /// one of a driver has nothing to look at, and throws.
+    /// Forces cost nothing where the driver does not override the function above. GCC can tell that: an
+    /// object's own function, and the one of this class, as plain pointers.
     void findOwnForces() {
+#if defined(__GNUC__) && !defined(__clang__)
+    #pragma GCC diagnostic push
+    #pragma GCC diagnostic ignored "-Wpmf-conversions"
+        using Plain = void (*)(MercuryScene*, MercuryForcedGrain);
+        const auto own = (Plain)(this->*(&MercuryScene::computeExternalForces));
+        const auto plain = (Plain)(&MercuryScene::computeExternalForces);
+    #pragma GCC diagnostic pop
+        forces.setKnown(own == plain ? MercuryForces::Known::None : MercuryForces::Known::Some);
+#else
+        askForForcesOnce();
+#endif
+    }
+    /// With other compilers: a driver whose function calls the one of this class has perhaps none of its own.
+    /// Where there are no grains yet one of a driver has nothing to look at, and throws.
+    void askForForcesOnce() {
         const bool isEmpty = this->particleHandler.isEmpty();
         MercuryForcedGrain::Load unused;
+        plainForcesWereAsked = false;
         try {
             const std::uint32_t first = isEmpty ? 0 : (*this->particleHandler.begin()).getId();
             computeExternalForces({GrainReference(this->particleHandler, first), unused});
         } catch (const InputError&) {
             if (!isEmpty) throw;
         }
+        using Known = MercuryForces::Known;
+        forces.setKnown(plainForcesWereAsked ? Known::Unknown : Known::Some);
     }
     static void requireTwoOrThree(const char* what, int dimensions) {
         if (dimensions != 2 && dimensions != 3)
@@ -218,6 +236,7 @@ private:
     }
 
     int systemDimensions = 3;
+    bool plainForcesWereAsked = false;
     MercuryPaths& paths = this->template addPart<MercuryPaths>();
     MercuryForces& forces = this->template addPart<MercuryForces>(
         [this](const MercuryForcedGrain& grain) { computeExternalForces(grain); });

@@ -21,6 +21,15 @@ void Chute::setChuteAngleAndMagnitudeOfGravity(double angle, double gravity) {
     setGravity(gravity * Vec3D(std::sin(chuteAngle), 0, -std::cos(chuteAngle)));
 }
 
+void Chute::setChuteAngle(double angle) {
+    const double gravity = getGravity().norm();
+    if (!(gravity > 0))
+        throw InputError(
+            "Chute: its angle is set without gravity, which it turns; give both with "
+            "setChuteAngleAndMagnitudeOfGravity(), or call setGravity() before.");
+    setChuteAngleAndMagnitudeOfGravity(angle, gravity);
+}
+
 void Chute::setFixedParticleRadius(double radius) {
     checkValue("Chute", "radius of the grains of the bottom", radius, "m", notNegative);
     fixedRadius = radius;

@@ -21,7 +21,8 @@ public:
 
     /// @param angle degrees, from -90 to 90; @param gravity m/s^2
     void setChuteAngleAndMagnitudeOfGravity(double angle, double gravity);
-    void setChuteAngle(double angle) { setChuteAngleAndMagnitudeOfGravity(angle, getGravity().norm()); }
+    /// The same with the gravity that is set. Throws InputError where none is.
+    void setChuteAngle(double angle);
     [[nodiscard]] double getChuteAngle() const { return chuteAngle; }  // rad
     [[nodiscard]] double getChuteAngleDegrees() const { return chuteAngle / constants::degree; }
     /// m, along x and y, from where the box begins

@@ -25,24 +25,24 @@ std::span<const Conflict> MercuryForces::ownConflicts() const {
 
 void MercuryForces::beforeMotion(StepContext& step) {
     isAccelerated = false;
-    if (isAsleep) return;
+    if (known == Known::None) return;
     const ParticleStore& grains = step.grains();
     std::vector<Pushed> now;
-    auto known = pushed.begin();
+    auto earlier = pushed.begin();
     for (const GrainReference grain : step.particles) {  // in the order of identities
         const std::uint32_t identity = grain.getId(), place = grains.place[identity];
         if (grain.isFixed()) continue;
         Pushed one{.identity = identity, .velocity = grains.translation[place].velocity};
         one.spin = grains.hasSpin ? grains.rotation[place].spin : Vector<double>{0, 0, 0};
-        while (known != pushed.end() && known->identity < identity) ++known;
-        if (known != pushed.end() && known->identity == identity) one.load = one.before = known->load;
+        while (earlier != pushed.end() && earlier->identity < identity) ++earlier;
+        if (earlier != pushed.end() && earlier->identity == identity) one.load = one.before = earlier->load;
         now.push_back(one);
     }
     pushed = std::move(now);
 }
 
 void MercuryForces::afterForces(StepContext& step) {
-    if (isAsleep) return;
+    if (known == Known::None) return;
     ParticleStore& grains = step.grains();
     const double time = step.scheme->corrector * step.length;
     for (Pushed& one : pushed) {
@@ -67,7 +67,7 @@ void MercuryForces::afterForces(StepContext& step) {
 
 /// The velocities have their part of the new forces; the accelerations get theirs here.
 void MercuryForces::finish(StepContext& step) {
-    if (isAsleep) return;
+    if (known == Known::None) return;
     ParticleStore& grains = step.grains();
     for (const Pushed& one : pushed) {
         const std::uint32_t place = grains.place[one.identity];

@@ -31,12 +31,14 @@ class MercuryForces : public StepPart {
 public:
     using Ask = std::function<void(MercuryForcedGrain)>;
     explicit MercuryForces(Ask ofDriver) : ask(std::move(ofDriver)) {}
-    /// The driver has none.
-    void sleep() { isAsleep = true; }
+    /// Whether the driver has forces. Where that is not known it is asked for them, but scenes that they do
+    /// not fit are not refused.
+    enum class Known { Some, None, Unknown };
+    void setKnown(Known of) { known = of; }
 
     [[nodiscard]] std::string_view name() const override { return "forces of the driver"; }
     [[nodiscard]] Features features(const StepContext& /*scene*/) const override {
-        return isAsleep ? Features{} : Features{Feature::OwnPart};
+        return known == Known::Some ? Features{Feature::OwnPart} : Features{};
     }
     [[nodiscard]] std::span<const Conflict> ownConflicts() const override;
     void beforeMotion(StepContext& step) override;
@@ -57,7 +59,8 @@ private:
 
     Ask ask;
     std::vector<Pushed> pushed;
-    bool isAsleep = false, isAccelerated = false;
+    Known known = Known::Some;
+    bool isAccelerated = false;
 };
 
 }  // namespace pendular

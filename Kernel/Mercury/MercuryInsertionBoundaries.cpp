@@ -164,8 +164,9 @@ double InsertionBoundary::getVolumeOfParticlesInserted() const {
     return volumeAtOnce + (source ? source->volume : 0);
 }
 
-void RoundInsertionBoundary::setRegion(const Vec3D& lowest, const Vec3D& highest, Contains contains) {
-    low = lowest, high = highest, isIn = std::move(contains);
+void RoundInsertionBoundary::setRegion(const Vec3D& lowest, const Vec3D& highest, BoxOf boxOf,
+                                       Contains contains) {
+    low = lowest, high = highest, isBoxOf = boxOf, isIn = std::move(contains);
     isBox = false;
     place();
 }
@@ -187,11 +188,16 @@ void RoundInsertionBoundary::checkRange(const char* what, double lowest, double 
     checkValue(name, fmt::format("highest of the {}", what), highest, unit, {lowest, infinity, false, false});
 }
 
-/// Even in the region: points of the box around it until one is in it, or a thousand are not.
+/// Even in the region: points of the box around it until one is in it, or a thousand are not. In a box of
+/// whole grains centres keep a radius from its faces.
 void RoundInsertionBoundary::place() {
     constexpr int mostTries = 1000;
-    plan.place = [=, contains = isIn, turn = rotation, from = origin, lowest = low, highest = high](
+    const double share = isBoxOf == BoxOf::WholeGrains ? 1 : 0;
+    plan.place = [=, contains = isIn, turn = rotation, from = origin, low = low, high = high](
                      UniformRandom& random, double radius) -> std::optional<Vec3D> {
+        const Vec3D lowest = low + Vec3D::Constant(share * radius),
+                    highest = high - Vec3D::Constant(share * radius);
+        if (!(lowest.array() <= highest.array()).all()) return std::nullopt;
         for (int k = 0; k < mostTries; ++k) {
             Vec3D point;
             for (int axis = 0; axis < 3; ++axis) point[axis] = random.uniform(lowest[axis], highest[axis]);
@@ -214,7 +220,7 @@ void SphereInsertionBoundary::set(const SphericalParticle* like, unsigned maxFai
     checkValue(name, "radius", radius, "m", radiusRange);
     setGrains({like}, maxFailed, lowestVelocity, highestVelocity);
     shiftBoundary(centre - getOrigin());
-    setRegion(Vec3D::Constant(-radius), Vec3D::Constant(radius),
+    setRegion(Vec3D::Constant(-radius), Vec3D::Constant(radius), BoxOf::WholeGrains,
               [radius](const Vec3D& point, double ofGrain) { return point.norm() <= radius - ofGrain; });
 }
 
@@ -226,7 +232,7 @@ void SphereInsertionBoundary::set(const SphericalParticle* like, unsigned maxFai
     checkRange("angles theta", lowestTheta, highestTheta, "rad");
     checkRange("angles phi", lowestPhi, highestPhi, "rad");
     setGrains({like}, maxFailed, lowestVelocity, highestVelocity);
-    setRegion(Vec3D::Constant(-highestRadius), Vec3D::Constant(highestRadius),
+    setRegion(Vec3D::Constant(-highestRadius), Vec3D::Constant(highestRadius), BoxOf::Centres,
               [=](const Vec3D& point, double) {
                   const double r = point.norm(), theta = thetaOf(point),
                                phi = std::atan2(std::hypot(point.x(), point.y()), point.z());
@@ -250,10 +256,10 @@ void CylinderInsertionBoundary::set(const SphericalParticle* like, unsigned maxF
             name, axis.x(), axis.y(), axis.z()));
     setGrains({like}, maxFailed, lowestVelocity, highestVelocity);
     const double quarter = 0.5 * std::numbers::pi;
-    if (isAlongX || isAlongY)
-        turn(Eigen::AngleAxisd(quarter, isAlongX ? Vec3D::UnitY() : Vec3D::UnitX()).toRotationMatrix());
+    const Vec3D about = isAlongX ? Vec3D::UnitY() : Vec3D::UnitX();
+    setRotation(Eigen::AngleAxisd(isAlongX || isAlongY ? quarter : 0, about).toRotationMatrix());
     setRegion({-highestRadius, -highestRadius, lowestHeight}, {highestRadius, highestRadius, highestHeight},
-              [=](const Vec3D& point, double) {
+              BoxOf::Centres, [=](const Vec3D& point, double) {
                   const double r = std::hypot(point.x(), point.y()), theta = thetaOf(point);
                   return r >= lowestRadius && r <= highestRadius && theta >= lowestTheta &&
                          theta <= highestTheta;

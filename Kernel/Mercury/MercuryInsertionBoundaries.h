@@ -116,9 +116,12 @@ public:
 
 protected:
     using InsertionBoundary::InsertionBoundary;
-    /// In its own frame: whether the centre (m) of a grain of a radius (m) is in it, and a box around it.
+    /// In its own frame: whether the centre (m) of a grain of a radius (m) is in it, and a box around it,
+    /// of the centres or of whole grains.
     using Contains = std::function<bool(const Vec3D&, double)>;
-    void setRegion(const Vec3D& lowest, const Vec3D& highest, Contains contains);
+    enum class BoxOf { Centres, WholeGrains };
+    void setRegion(const Vec3D& lowest, const Vec3D& highest, BoxOf boxOf, Contains contains);
+    void setRotation(const Eigen::Matrix3d& of) { rotation = of; }
     void turn(const Eigen::Matrix3d& by);
     /// Throws InputError unless a range (m or rad) of a region is one. @param what "radii"
     void checkRange(const char* what, double lowest, double highest, const char* unit) const;
@@ -128,6 +131,7 @@ private:
 
     Vec3D origin = Vec3D::Zero(), low = Vec3D::Zero(), high = Vec3D::Zero();  // m
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+    BoxOf isBoxOf = BoxOf::Centres;
     Contains isIn;
 };
 
@@ -150,7 +154,7 @@ class CylinderInsertionBoundary : public RoundInsertionBoundary {
 public:
     CylinderInsertionBoundary() : RoundInsertionBoundary("CylinderInsertionBoundary") {}
     /// Centres between two distances (m) from the axis, two heights (m) along it, and two angles (rad) around
-    /// it. @param axis x, y or z; along y the heights go backwards, as there
+    /// it. @param axis x, y or z; along y the heights go backwards, as there. Turns of before are forgotten.
     void set(const SphericalParticle* like, unsigned maxFailed, double lowestRadius, double highestRadius,
              double lowestHeight, double highestHeight, const Vec3D& axis, double lowestTheta = 0,
              double highestTheta = 2 * std::numbers::pi, const Vec3D& lowestVelocity = Vec3D::Zero(),

@@ -495,14 +495,25 @@ struct SpeciesOfGrain {
 
 }  // namespace
 
-/// Behind the gap nobody is in the way while the flow goes on. Throws RunError where it does not.
-void GrainCopies::requireRoom(StepContext& step, std::uint32_t identity, const SphericalParticle& copy,
-                              double time) {
+bool GrainCopies::isCopyBy(const Image& image, std::uint32_t identity) const {
+    const auto copy = copies.find(identity);
+    if (copy == copies.end()) return false;
+    const auto own = copiesOf.find(copy->second);
+    if (own == copiesOf.end()) return false;
+    const auto found = own->second.find(image);
+    return found != own->second.end() && found->second == identity;
+}
+
+/// Behind the gap nobody is in the way while the flow goes on. Throws RunError where it does not. Copies by
+/// the same image overlap as their grains do, which is no matter of room.
+void GrainCopies::requireRoom(StepContext& step, std::uint32_t identity, const Image& image,
+                              const SphericalParticle& copy, double time) const {
     constexpr double mostShare = 0.05;  // of the smaller radius, as at set-up
     for (const GrainReference other : step.particles) {
         const double overlap = copy.getRadius() + other.getRadius() -
                                norm(step.box.nearest(toVector(other.getPosition() - copy.getPosition())));
         if (overlap <= mostShare * std::min(copy.getRadius(), other.getRadius())) continue;
+        if (isCopyBy(image, other.getId())) continue;
         throw RunError(fmt::format(
             "At time {:.6g} s there is no room behind the gap for what follows particle {} of the box that "
             "feeds: particle {} is there; a box with a gap feeds a flow that goes on, so drive it more "
@@ -517,7 +528,7 @@ void GrainCopies::makeOne(StepContext& step, std::uint32_t identity, const Image
     SphericalParticle copy(&species);
     copy.setRadius(grain.getRadius());
     copy.setPosition(placeOf(motionOf(image, time), grain.getPosition()));
-    if (image.feeds) requireRoom(step, identity, copy, time);
+    if (image.feeds) requireRoom(step, identity, image, copy, time);
     copy.setHeldAxes(grain.getHeldAxes());
     const std::uint32_t made = step.particles.copyAndAddObject(copy).getId();
     copiesOf[identity][image] = made;

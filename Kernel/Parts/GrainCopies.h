@@ -124,8 +124,9 @@ private:
     [[nodiscard]] std::vector<double> numbersOfFaces() const;
     static void refuseColumns(const StepContext& scene);
     void refuseFacesAcross(const PeriodicBox& box) const;
-    static void requireRoom(StepContext& step, std::uint32_t identity, const SphericalParticle& copy,
-                            double time);
+    void requireRoom(StepContext& step, std::uint32_t identity, const Image& image,
+                     const SphericalParticle& copy, double time) const;
+    [[nodiscard]] bool isCopyBy(const Image& image, std::uint32_t identity) const;
     void follow(ParticleStore& grains, double time) const;
     void adopt(StepContext& step);
     void renew(StepContext& step, double time);

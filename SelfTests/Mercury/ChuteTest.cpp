@@ -1,6 +1,7 @@
 // MercuryDPM's class Chute, by its names, and what its programs set up with it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -44,7 +45,7 @@ TEST(MercuryPrograms, roughBottom) {
     addSpecies(roughBottomSelfTest);
     roughBottomSelfTest.solve();
     double held = 0;
-    int flowing = 0;
+    int flowing = 0, falling = 0;
     for (auto p : roughBottomSelfTest.particleHandler) {
         const Vec3D place = p->getPosition();
         EXPECT_GE(place.y(), 0.49);
@@ -56,11 +57,22 @@ TEST(MercuryPrograms, roughBottom) {
             continue;
         }
         ++flowing;
-        // They have begun with 0.1 m/s along x and fall since: at most by g t.
-        EXPECT_GE(p->getVelocity().x(), 0.1 - 0.1 * std::sin(24 * constants::degree));
+        // They have begun with 0.1 m/s along x and fall since: at most by g t, also after they met others.
         EXPECT_LT(p->getVelocity().norm(), 0.1 + 1.0 * 0.1 + 0.01);
+        // Two grains came nearer by at most 2 (0.1 + g t) t = 0.04 m: one farther from all has met none.
+        double gap = place.y() - 0.5;
+        gap = std::min(gap, 2.5 - place.y());
+        for (auto other : roughBottomSelfTest.particleHandler)
+            if (other->getId() != p->getId())
+                gap = std::min(gap, (other->getPosition() - place).norm() - 2 * 0.5);
+        if (gap <= 0.04) continue;
+        ++falling;
+        EXPECT_GE(p->getVelocity().x(), 0.1);
+        EXPECT_NEAR(p->getVelocity().x() - 0.1, -std::tan(24 * constants::degree) * p->getVelocity().z(),
+                    1e-12);
     }
     EXPECT_GE(flowing, 1);
+    EXPECT_GE(falling, 1);
     // Of a box of 3 x 3 x 2.2 m, among walls.
     EXPECT_GT(held, 0.38 * 3 * 3 * 2.2);
     EXPECT_LT(held, 0.56 * 3 * 3 * 2.2);
@@ -117,7 +129,8 @@ TEST(MercuryChute, refusesWhatIsNoChute) {
     chute.setRoughBottomType("MULTILAYER");
     EXPECT_EQ(chute.getRoughBottomType(), MULTILAYER);
     for (const std::string& text :
-         {refusal([&] { chute.setRoughBottomType("ROUGH"); }), refusal([&] { chute.setChuteAngle(91); }),
+         {refusal([&] { chute.setRoughBottomType("ROUGH"); }),
+          refusal([&] { chute.setChuteAngleAndMagnitudeOfGravity(91, 1); }),
           refusal([&] { chute.setFixedParticleRadius(-1); }), refusal([&] { chute.setInflowHeight(0); }),
           refusal([&] { chute.setInflowParticleRadius(2, 1); }),
           refusal([&] { chute.setInflowVelocityVariance(2); })})
@@ -125,6 +138,11 @@ TEST(MercuryChute, refusesWhatIsNoChute) {
     chute.setTimeStep(1e-4), chute.setTimeMax(0), chute.setQuiet();
     const std::string without = refusal([&] { chute.solve(); });
     EXPECT_TRUE(isOneSentence(without) && contains(without, "no species")) << without;
+    const std::string noGravity = refusal([&] { chute.setChuteAngle(24); });
+    EXPECT_TRUE(isOneSentence(noGravity) && contains(noGravity, "without gravity")) << noGravity;
+    chute.setGravity({0, 0, -2});
+    chute.setChuteAngle(30);
+    EXPECT_LT((chute.getGravity() - Vec3D(1, 0, -std::sqrt(3))).norm(), 1e-15);
 }
 
 }  // namespace

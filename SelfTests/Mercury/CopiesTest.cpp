@@ -573,6 +573,24 @@ TEST(MercuryCopies, areRefusedWithFacesAcrossAPeriodicAxis) {
     EXPECT_EQ(said(slanted, 2), "");
 }
 
+// Two grains that are pressed into each other by 0.2 of a radius, as the scene accepts, flow on together.
+TEST(MercuryCopies, ofABoxWithAGapOverlapAsTheirGrainsDo) {
+    Periodic scene;
+    scene.copies.addMaser({1, 0, 0}, 0, 2, {0, 0, 0}, 0.6);
+    scene.acceptOverlaps(0.25);
+    scene.material->setStiffness(0.1);  // they have 4.2 kg, and hardly move apart
+    scene.particleHandler.getObject(0).setPosition({1.5, 0, 0});
+    scene.particleHandler.getObject(0).setVelocity({10, 0, 0});
+    SphericalParticle second(scene.material);
+    second.setRadius(0.1);
+    second.setPosition({1.5, 0.18, 0});
+    second.setVelocity({10, 0, 0});
+    scene.particleHandler.copyAndAddObject(second);
+    scene.initialise();
+    for (int k = 0; k < 700; ++k) scene.step();
+    EXPECT_EQ(scene.copies.numberFed(), 2u);
+}
+
 // A box whose grains turn back, where what it has fed is still behind the gap.
 TEST(MercuryCopies, ofABoxWithAGapSayThatItFlowsBack) {
     Periodic scene;

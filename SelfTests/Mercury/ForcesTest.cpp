@@ -234,6 +234,30 @@ TEST(MercuryForces, moveAGrainAsVerletDoes) {
     EXPECT_NEAR((grain.getForce() - (-4 * grain.getPosition() - Vec3D(0, 0, 1))).norm(), 0, 1e-12);
 }
 
+// A driver may call the function of the class that it derives from first, and its first grain may be held.
+TEST(MercuryForces, actWhereTheOwnFunctionIsCalledToo) {
+    struct CallsFirst : OnASpring {
+        void computeExternalForces(MercuryForcedGrain p) override {
+            DPMBase::computeExternalForces(p);
+            if (!p->isFixed()) OnASpring::computeExternalForces(p);
+        }
+    } scene, withHeld;
+    SphericalParticle held(withHeld.speciesHandler.getObject(0));
+    held.setRadius(0.1);
+    held.setPosition({9, 0, 0});
+    withHeld.particleHandler.clear();
+    withHeld.particleHandler.copyAndAddObject(held).fixParticle();
+    held.setPosition({1, 0, 0}), held.setVelocity({0, 2, 0});
+    withHeld.particleHandler.copyAndAddObject(held);
+    scene.solve(), withHeld.solve();
+    const double angle = 2 * std::asin(1e-3) * 3000;
+    for (const auto grain :
+         {scene.particleHandler.getLastObject(), withHeld.particleHandler.getLastObject()}) {
+        EXPECT_NEAR(grain.getPosition().x(), std::cos(angle), 1e-12);
+        EXPECT_NEAR(grain.getPosition().y(), std::sin(angle) * 2e-3 / std::sin(2 * std::asin(1e-3)), 1e-12);
+    }
+}
+
 TEST(MercuryForces, areBookedAsGivenByTheDriver) {
     OnASpring scene;
     scene.torque = 0.001;

@@ -235,6 +235,27 @@ TEST(MercuryPrograms, sphereInsertionBoundary) {
     EXPECT_LT((sum / n).cwiseAbs().maxCoeff(), 4 * 0.019 / std::sqrt(5 * n));
 }
 
+// Tries are not lost where grains are nearly as large as the ball; larger ones have no room.
+TEST(MercuryInsertions, fillABallThatIsHardlyLarger) {
+    SphericalParticle grain;
+    grain.setRadius(0.001);
+    const auto numberIn = [&](double radius, int seed) {
+        Empty scene;
+        scene.random.setRandomSeed(seed);
+        grain.setSpecies(scene.species);
+        SphereInsertionBoundary insertion;
+        insertion.set(&grain, 1, {0.5, 0.5, 0.5}, radius);
+        insertion.checkBoundaryBeforeTimeStep(&scene);
+        for (auto p : scene.particleHandler)
+            EXPECT_LE((p->getPosition() - Vec3D(0.5, 0.5, 0.5)).norm(), (radius - 0.001) * (1 + 1e-12));
+        return scene.particleHandler.getSize();
+    };
+    for (int seed = 1; seed < 10; ++seed) {
+        EXPECT_EQ(numberIn(0.00105, seed), 1u);
+        EXPECT_EQ(numberIn(0.00099, seed), 0u);
+    }
+}
+
 // Centres in a shell, of which an eighth is left out, that is put elsewhere.
 TEST(MercuryPrograms, sphereInsertionBoundaryOfAngles) {
     Empty scene;
@@ -260,13 +281,15 @@ TEST(MercuryPrograms, sphereInsertionBoundaryOfAngles) {
 }
 
 // A cylinder along x that is shifted and turned: two turns by a quarter make one about y of all three, so
-// that it points against z. The number of grains is random: 129 there.
+// that it points against z. The number of grains is random: 129 there, in a smaller cylinder where one try
+// may fail; here a hundred may.
 TEST(MercuryPrograms, cylinderInsertionBoundary) {
     Empty scene;
     SphericalParticle grain(scene.species);
     grain.setRadius(0.001);
     CylinderInsertionBoundary insertion;
-    insertion.set(&grain, 100, 0, 0.02, 0.01, 0.05, {1, 0, 0});
+    insertion.set(&grain, 100, 0, 0.02, 0.01, 0.05, {0, 1, 0});
+    insertion.set(&grain, 100, 0, 0.02, 0.01, 0.05, {1, 0, 0});  // which forgets the first one
     EXPECT_LT(
         (insertion.getOrientationMatrix() - (Eigen::Matrix3d() << 0, 0, 1, 0, 1, 0, -1, 0, 0).finished())
             .norm(),
