@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <unsupported/Eigen/Splines>
@@ -19,12 +20,28 @@ Basis::KnotVectorType toKnots(const std::vector<double>& knots) {
     return Eigen::Map<const Basis::KnotVectorType>(knots.data(), static_cast<Eigen::Index>(knots.size()));
 }
 
+/// A knot that is there too often leaves points without effect; between the ends it tears the surface.
+void refuseTears(char direction, const std::vector<double>& knots, std::size_t degree) {
+    for (const double knot : knots) {
+        const auto times = static_cast<std::size_t>(std::ranges::count(knots, knot));
+        const bool isWithin = knot > knots[degree] && knot < knots[knots.size() - degree - 1];
+        const std::size_t most = isWithin ? degree : degree + 1;
+        if (times > most)
+            throw InputError(fmt::format(
+                "NurbsSurface: the knot {} of {} is there {} times; of degree {} it may be "
+                "there {} times {}.",
+                knot, direction, times, degree, most, isWithin ? "between the ends" : "at an end"));
+    }
+}
+
 /// The degree of a direction. Throws InputError unless knots and points fit.
 std::size_t degreeOf(char direction, const std::vector<double>& knots, std::size_t points) {
     if (points < 2 || knots.size() < points + 2 || knots.size() > 2 * points)
         throw InputError(fmt::format(
             "NurbsSurface: {} knots of {} and {} points along it; of n points it must be n + 2 to 2 n knots.",
             knots.size(), direction, points));
+    for (std::size_t k = 0; k < knots.size(); ++k)
+        checkValue("NurbsSurface", fmt::format("knot {} of {}", k, direction), knots[k], "", anyFinite);
     for (std::size_t k = 1; k < knots.size(); ++k)
         if (!(knots[k] >= knots[k - 1]))
             throw InputError(
@@ -34,8 +51,35 @@ std::size_t degreeOf(char direction, const std::vector<double>& knots, std::size
     const std::size_t degree = knots.size() - points - 1;
     if (!(knots[points] > knots[degree]))
         throw InputError(fmt::format("NurbsSurface: the knots of {} have no length.", direction));
+    refuseTears(direction, knots, degree);
     return degree;
 }
+
+/// The different knots from the first to the last that count. By the parameter of a wall (from 0 on) the
+/// surface has one span of 1 between each two.
+class Spans {
+public:
+    Spans() = default;
+    Spans(const std::vector<double>& ofKnots, std::size_t degree)
+        : knots(ofKnots.begin() + static_cast<std::ptrdiff_t>(degree),
+                ofKnots.end() - static_cast<std::ptrdiff_t>(degree)) {
+        knots.erase(std::ranges::unique(knots).begin(), knots.end());
+    }
+    [[nodiscard]] std::size_t number() const { return knots.size() - 1; }
+    struct Place {
+        double parameter, length;  // of the surface, and that of the span
+    };
+    /// Below the knot at which the next span begins, whose derivatives are others.
+    [[nodiscard]] Place at(double along) const {
+        const std::size_t k = std::min(static_cast<std::size_t>(std::max(along, 0.0)), number() - 1);
+        const double length = knots[k + 1] - knots[k], share = along - static_cast<double>(k);
+        const double end = k + 1 < number() ? std::nextafter(knots[k + 1], knots[k]) : knots[k + 1];
+        return {std::clamp(knots[k] + share * length, knots[k], end), length};
+    }
+
+private:
+    std::vector<double> knots;
+};
 
 /// The basis functions that are not 0 at a parameter, with two derivatives, and which points they belong to.
 struct BasisAt {
@@ -70,6 +114,10 @@ NurbsSurface::NurbsSurface(std::vector<double> knotsU, std::vector<double> knots
                 "NurbsSurface: row {} has not {} points and weights, as the first one has points.", i,
                 points[0].size()));
         for (const double weight : weights[i]) checkValue("NurbsSurface", "weight", weight, "", positive);
+        for (std::size_t j = 0; j < points[i].size(); ++j)
+            for (int axis = 0; axis < 3; ++axis)
+                checkValue("NurbsSurface", fmt::format("{} of point ({}, {})", "xyz"[axis], i, j),
+                           points[i][j][axis], "m", anyFinite);
     }
 }
 
@@ -109,13 +157,23 @@ SurfaceFormula NurbsSurface::formula() const {
                                    weights[i][j]);
     formula.name = fmt::format("NurbsWall of knots {} and {} and points{}", fmt::join(knots[0], ", "),
                                fmt::join(knots[1], ", "), numbers);
+    std::array<Spans, 2> spans;
     for (std::size_t k = 0; k < 2; ++k) {
-        const std::size_t spans = knots[k].size() - 2 * degrees[k] - 1;
-        formula.low[k] = knots[k][degrees[k]];
-        formula.high[k] = knots[k][knots[k].size() - degrees[k] - 1];
-        formula.cells[k] = spans * (degrees[k] == 1 ? 2 : 8);
+        spans[k] = Spans(knots[k], degrees[k]);
+        formula.pieces[k] = spans[k].number();
+        formula.low[k] = 0;
+        formula.high[k] = static_cast<double>(formula.pieces[k]);
+        formula.cells[k] = formula.pieces[k] * (degrees[k] == 1 ? 2 : 8);
     }
-    formula.at = [surface = *this](double u, double v) { return surface.at(u, v); };
+    formula.at = [surface = *this, spans](double s, double t) {
+        const auto [u, lengthU] = spans[0].at(s);
+        const auto [v, lengthV] = spans[1].at(t);
+        SurfaceJet jet = surface.at(u, v);
+        jet.u *= lengthU, jet.uu *= lengthU * lengthU;
+        jet.v *= lengthV, jet.vv *= lengthV * lengthV;
+        jet.uv *= lengthU * lengthV;
+        return jet;
+    };
     return formula;
 }
 

@@ -49,14 +49,18 @@ CurvedSheet::Parameters CurvedSheet::parametersOf(std::size_t cell, double along
 /// between them (h^2 / 8 times the second derivative, h half a side).
 Box CurvedSheet::boxOf(std::size_t cell) const {
     Box box;
+    const Piece piece = pieceOf(cell);
     double bend = 0;
     std::array<double, 2> h{};
     for (std::size_t k = 0; k < 2; ++k)
         h[k] = 0.5 * (formula.high[k] - formula.low[k]) / static_cast<double>(formula.cells[k]);
     for (const double a : {0.0, 0.5, 1.0})
         for (const double b : {0.0, 0.5, 1.0}) {
-            const Parameters at = parametersOf(cell, a, b);
+            const Parameters at = piece.inside(parametersOf(cell, a, b));
             const SurfaceJet jet = formula.at(at[0], at[1]);
+            if (!jet.point.allFinite())
+                throw InputError(fmt::format("{}: its point of the parameters {} and {} is not finite.",
+                                             formula.name, at[0], at[1]));
             box.include(toVector(jet.point));
             bend = std::max(bend, jet.uu.norm() * h[0] * h[0] + 2 * jet.uv.norm() * h[0] * h[1] +
                                       jet.vv.norm() * h[1] * h[1]);
@@ -65,21 +69,37 @@ Box CurvedSheet::boxOf(std::size_t cell) const {
     return {box.lowest - margin, box.highest + margin};
 }
 
-CurvedSheet::Parameters CurvedSheet::inside(Parameters parameters) const {
-    for (std::size_t k = 0; k < 2; ++k)
-        parameters[k] = std::clamp(parameters[k], formula.low[k], formula.high[k]);
+CurvedSheet::Parameters CurvedSheet::Piece::inside(Parameters parameters) const {
+    for (std::size_t k = 0; k < 2; ++k) parameters[k] = std::clamp(parameters[k], low[k], high[k]);
     return parameters;
 }
 
+/// It ends one bit before the next one begins, so that it has its own derivatives there.
+CurvedSheet::Piece CurvedSheet::pieceOf(std::size_t cell) const {
+    const std::array<std::size_t, 2> places{cell / formula.cells[1], cell % formula.cells[1]};
+    Piece piece;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const std::size_t number = places[k] * formula.pieces[k] / formula.cells[k];
+        const auto bound = [&](std::size_t n) {
+            return formula.low[k] + (formula.high[k] - formula.low[k]) * static_cast<double>(n) /
+                                        static_cast<double>(formula.pieces[k]);
+        };
+        piece.low[k] = bound(number);
+        piece.high[k] = number + 1 == formula.pieces[k] ? formula.high[k]
+                                                        : std::nextafter(bound(number + 1), piece.low[k]);
+    }
+    return piece;
+}
+
 /// The change of the parameters by which Newton's method goes to where the way from the centre is across the
-/// surface; a parameter that is at its bound and would leave stays. Where the distance is no minimum there,
-/// the second derivatives are left out (Gauss and Newton's method).
-CurvedSheet::Parameters CurvedSheet::newtonStep(const SurfaceJet& jet, const Vec3D& way,
-                                                const Parameters& at) const {
+/// surface; a parameter that is at a bound of the piece and would leave stays. Where the distance is no
+/// minimum there, the second derivatives are left out (Gauss and Newton's method).
+CurvedSheet::Parameters CurvedSheet::newtonStep(const Piece& piece, const Nearest& now, const Vec3D& way) {
+    const SurfaceJet& jet = now.jet;
     const std::array<double, 2> slope{way.dot(jet.u), way.dot(jet.v)};
     std::array<bool, 2> isFree{};
     for (std::size_t k = 0; k < 2; ++k)
-        isFree[k] = slope[k] > 0 ? at[k] > formula.low[k] : at[k] < formula.high[k];
+        isFree[k] = slope[k] > 0 ? now.at[k] > piece.low[k] : now.at[k] < piece.high[k];
     double a = jet.u.squaredNorm() + way.dot(jet.uu), b = jet.u.dot(jet.v) + way.dot(jet.uv),
            c = jet.v.squaredNorm() + way.dot(jet.vv);
     const auto isMinimum = [&] {
@@ -94,15 +114,18 @@ CurvedSheet::Parameters CurvedSheet::newtonStep(const SurfaceJet& jet, const Vec
     return {isFree[0] && a > 0 ? -slope[0] / a : 0, isFree[1] && c > 0 ? -slope[1] / c : 0};
 }
 
-/// Goes downhill from a point of the surface to one that is nearest to the centre of all around it.
-CurvedSheet::Nearest CurvedSheet::descend(const Vec3D& centre, Parameters from) const {
+/// Goes downhill from the middle of a patch, in its piece, to the point that is nearest to the centre of all
+/// around it.
+CurvedSheet::Nearest CurvedSheet::descend(const Vec3D& centre, std::size_t cell) const {
+    const Piece piece = pieceOf(cell);
+    const Parameters from = parametersOf(cell, 0.5, 0.5);
     Nearest now{.at = from, .jet = formula.at(from[0], from[1])};
     now.distance = (now.jet.point - centre).norm();
     for (int turn = 0; turn < 60; ++turn) {
-        Parameters step = newtonStep(now.jet, now.jet.point - centre, now.at);
+        Parameters step = newtonStep(piece, now, now.jet.point - centre);
         bool isBetter = false;
         for (int half = 0; half < 40 && !isBetter; ++half) {
-            const Parameters at = inside({now.at[0] + step[0], now.at[1] + step[1]});
+            const Parameters at = piece.inside({now.at[0] + step[0], now.at[1] + step[1]});
             const SurfaceJet jet = formula.at(at[0], at[1]);
             const double distance = (jet.point - centre).norm();
             isBetter = distance < now.distance;
@@ -133,7 +156,7 @@ CurvedSheet::Nearest CurvedSheet::nearestTo(const Vec3D& centre, double reach) c
     Nearest best;
     for (const Candidate& one : candidates) {
         if (!(std::sqrt(boxes[one.cell].squaredDistance(point)) < best.distance)) continue;
-        const Nearest found = descend(centre, parametersOf(one.cell, 0.5, 0.5));
+        const Nearest found = descend(centre, one.cell);
         if (found.distance < best.distance) best = found;
     }
     return best;
@@ -160,11 +183,15 @@ void CurvedSheet::findInBody(const Vector<double>& centre, double reach, std::sp
     points[0] = {toVector(normal), nearest.distance - thickness, {0, 0, 0}};
 }
 
-/// Whether the surface ends there: the way to the nearest point is not across it.
-bool CurvedSheet::isBeside(const Nearest& nearest, const Vector<double>& centre) {
+/// Whether the surface ends there: the way to the nearest point is not across it. At a bend between two
+/// pieces it is not, either, but there the surface goes on.
+bool CurvedSheet::isBeside(const Nearest& nearest, const Vector<double>& centre) const {
     const Vec3D way = nearest.jet.point - toEigen(centre);
-    return std::max(std::abs(way.dot(nearest.jet.u.normalized())),
-                    std::abs(way.dot(nearest.jet.v.normalized()))) > 1e-6 * way.norm();
+    const auto isAtEnd = [&](std::size_t k, const Vec3D& along) {
+        const bool isBound = nearest.at[k] == formula.low[k] || nearest.at[k] == formula.high[k];
+        return isBound && std::abs(way.dot(along.normalized())) > 1e-6 * way.norm();
+    };
+    return isAtEnd(0, nearest.jet.u) || isAtEnd(1, nearest.jet.v);
 }
 
 /// Into the body, or to the other side of a surface.

@@ -15,12 +15,15 @@ struct SurfaceJet {
     Vec3D point, u, v, uu, uv, vv;
 };
 
-/// A smooth surface by a formula, over a rectangle of its two parameters; with one parameter it is a curve.
+/// A surface by a formula, over a rectangle of its two parameters; with one parameter it is a curve. It is
+/// smooth, or of smooth pieces with bends between them, each as long by the parameter.
 struct SurfaceFormula {
     std::string name;                  // of the shape with its numbers: restart files compare it
     std::array<double, 2> low, high;   // of u and v; a curve has low = high of v
     std::array<std::size_t, 2> cells;  // so many patches along u and v, each nearly flat
     std::function<SurfaceJet(double u, double v)> at;
+    std::array<std::size_t, 2> pieces{1, 1};  // along u and v, each of a whole number of patches; where one
+                                              // ends, derivatives are those of the next one
 };
 
 /// A surface by a formula, with grains on both sides, or a body of all points that are nearer to it than a
@@ -52,12 +55,17 @@ private:
     };
     [[nodiscard]] Parameters parametersOf(std::size_t cell, double alongU, double alongV) const;
     [[nodiscard]] Box boxOf(std::size_t cell) const;
-    [[nodiscard]] Parameters inside(Parameters parameters) const;
+    /// The bounds of a smooth piece.
+    struct Piece {
+        Parameters low{}, high{};
+        [[nodiscard]] Parameters inside(Parameters parameters) const;
+    };
+    [[nodiscard]] Piece pieceOf(std::size_t cell) const;
     [[nodiscard]] bool isCurve() const { return formula.low[1] == formula.high[1]; }
     [[nodiscard]] Nearest nearestTo(const Vec3D& centre, double reach) const;
-    [[nodiscard]] Nearest descend(const Vec3D& centre, Parameters from) const;
-    [[nodiscard]] Parameters newtonStep(const SurfaceJet& jet, const Vec3D& way, const Parameters& at) const;
-    [[nodiscard]] static bool isBeside(const Nearest& nearest, const Vector<double>& centre);
+    [[nodiscard]] Nearest descend(const Vec3D& centre, std::size_t cell) const;
+    [[nodiscard]] static Parameters newtonStep(const Piece& piece, const Nearest& now, const Vec3D& way);
+    [[nodiscard]] bool isBeside(const Nearest& nearest, const Vector<double>& centre) const;
     void addTube(std::vector<Polygon>& polygons) const;
 
     SurfaceFormula formula;

@@ -57,8 +57,130 @@ TEST(MercuryPrograms, nurbsSurface) {
          {said(std::vector<double>{0, 0, 1}, knots, points, ones),
           said(std::vector<double>{0, 1, 0, 1}, knots, points, ones),
           said(knots, knots, points, std::vector<std::vector<double>>{{1, 1}, {1, 0}}),
-          said(knots, knots, points, std::vector<std::vector<double>>{{1, 1}, {1}})})
+          said(knots, knots, points, std::vector<std::vector<double>>{{1, 1}, {1}}),
+          said(std::vector<double>{0, 0, 1, std::nan("")}, knots, points, ones),
+          said(knots, std::vector<double>{0, 0, 1, infinity}, points, ones)})
         EXPECT_TRUE(isOneSentence(bad) && contains(bad, "NurbsSurface")) << bad;
+    auto hole = points;
+    hole[1][0].y() = std::nan("");
+    const std::string noPoint = said(knots, knots, hole, ones);
+    EXPECT_TRUE(isOneSentence(noPoint) && contains(noPoint, "y of point (1, 0)")) << noPoint;
+    // Of degree 2: three knots at an end, and two within.
+    std::vector<std::vector<Vec3D>> rows;
+    for (int k = 0; k < 6; ++k) rows.push_back({Vec3D(k, 0, 0), Vec3D(k, 1, 0)});
+    const std::vector<std::vector<double>> weights(6, {1, 1});
+    EXPECT_EQ(said(std::vector<double>{0, 0, 0, .5, .5, .7, 1, 1, 1}, knots, rows, weights), "");
+    for (const std::vector<double>& tooOften : {std::vector<double>{0, 0, 0, 0, .5, .7, 1, 1, 1},
+                                                std::vector<double>{0, 0, 0, .5, .5, .5, 1, 1, 1}}) {
+        const std::string text = said(tooOften, knots, rows, weights);
+        EXPECT_TRUE(isOneSentence(text) && contains(text, "times")) << text;
+    }
+}
+
+/// m, the least of a function of q from 0 to 1, which gives the square of a distance: of many samples, and
+/// between the neighbours of the least one by thirds.
+double leastOf(const std::function<double(double)>& square, int samples) {
+    int best = 0;
+    for (int k = 1; k <= samples; ++k)
+        if (square(1.0 * k / samples) < square(1.0 * best / samples)) best = k;
+    double low = std::max(0.0, (best - 1.0) / samples), high = std::min(1.0, (best + 1.0) / samples);
+    for (int k = 0; k < 80; ++k) {
+        const double third = (high - low) / 3;
+        if (square(low + third) < square(high - third)) high -= third;
+        else low += third;
+    }
+    return std::sqrt(square(0.5 * (low + high)));
+}
+
+/// m, of a point from a strip of the plane of x and z between two points, y from 0 to 1.
+double distanceToStrip(const Vec3D& point, const Vec3D& from, const Vec3D& to) {
+    const Vec3D way = to - from, start = point - from - Vec3D(0, point.y(), 0);
+    const double along = std::clamp(start.dot(way) / way.squaredNorm(), 0.0, 1.0),
+                 beside = std::max({0.0, -point.y(), point.y() - 1});
+    return std::hypot((start - along * way).norm(), beside);
+}
+
+/// Grains of 0.1 m at random around a wall from x = 0 to 2, against the distances of a function.
+void compareDistances(const NurbsSurface& surface, const std::function<double(const Vec3D&)>& distanceTo,
+                      double most) {
+    LinearViscoelasticSpecies species;
+    species.setDensity(1), species.setStiffness(1);
+    DPMBase dpm;
+    SphericalParticle particle(dpm.speciesHandler.copyAndAddObject(species));
+    particle.setRadius(.1);
+    NurbsWall wall(surface);
+    UniformRandom random(7);
+    Vec3D normal;
+    double distance = 0;
+    int touching = 0;
+    for (int k = 0; k < 4000; ++k) {
+        particle.setPosition({random.uniform(-.1, 2.1), random.uniform(-.1, 1.1), random.uniform(-.1, 1.2)});
+        const double expected = distanceTo(particle.getPosition());
+        const bool touches = wall.getDistanceAndNormal(particle, distance, normal);
+        ASSERT_TRUE(std::abs(expected - .1) <= most || touches == (expected < .1))
+            << particle.getPosition().transpose();
+        if (!touches) continue;
+        ++touching;
+        EXPECT_NEAR(distance, expected, most) << particle.getPosition().transpose();
+    }
+    EXPECT_GT(touching, 400);
+}
+
+// A roof of two flat parts, whose ridge is at a knot that is not in the middle; and the same with the
+// second part cut once more at a short span.
+TEST(MercuryNurbs, roofWithUnevenKnots) {
+    const Vec3D a(0, 0, 0), b(1, 0, 1), c(2, 0, 0), y(0, 1, 0), d = b + 0.9 * (c - b);
+    const auto distance = [&](const Vec3D& point) {
+        return std::min(distanceToStrip(point, a, b), distanceToStrip(point, b, c));
+    };
+    const std::vector<double> knotsV = {0, 0, 1, 1};
+    compareDistances(
+        {{0, 0, .3, 1, 1}, knotsV, {{a, a + y}, {b, b + y}, {c, c + y}}, {{1, 1}, {1, 1}, {1, 1}}}, distance,
+        1e-12);
+    compareDistances({{-2, -2, .3, .31, 5, 5},
+                      knotsV,
+                      {{a, a + y}, {b, b + y}, {d, d + y}, {c, c + y}},
+                      {{1, 1}, {1, 1}, {1, 1}, {1, 1}}},
+                     distance, 1e-12);
+}
+
+// The same roof of degree 2: a double knot has the ridge, and control points in the middle of the parts
+// keep them flat.
+TEST(MercuryNurbs, roofWithADoubleKnot) {
+    const Vec3D a(0, 0, 0), b(1, 0, 1), c(2, 0, 0), y(0, 1, 0), ab = 0.5 * (a + b), bc = 0.5 * (b + c);
+    std::vector<std::vector<Vec3D>> points;
+    for (const Vec3D& point : {a, ab, b, bc, c}) points.push_back({point, point + y});
+    compareDistances(
+        {{0, 0, 0, .2, .2, 1, 1, 1}, {0, 0, 1, 1}, points, std::vector(5, std::vector{1.0, 1.0})},
+        [&](const Vec3D& point) {
+            return std::min(distanceToStrip(point, a, b), distanceToStrip(point, b, c));
+        },
+        1e-12);
+}
+
+// A parabola z = x (2 - x), as one of degree 2 in the knots 0, 2 and with a knot put in at 0.1: the same
+// surface, as control points are the blossoms (x1 + x2) / 2 and x1 + x2 - x1 x2 of neighbouring knots.
+TEST(MercuryNurbs, parabolaWithAKnotPutIn) {
+    const auto surface = [](std::vector<double> knots) {
+        std::vector<std::vector<Vec3D>> points;
+        for (std::size_t k = 1; k + 2 < knots.size(); ++k) {
+            const double p = knots[k], q = knots[k + 1];
+            points.push_back({Vec3D((p + q) / 2, 0, p + q - p * q), Vec3D((p + q) / 2, 1, p + q - p * q)});
+        }
+        const std::vector<std::vector<double>> weights(points.size(), {1, 1});
+        return NurbsSurface(std::move(knots), {0, 0, 1, 1}, points, weights);
+    };
+    const auto distance = [](const Vec3D& point) {
+        const double across = leastOf(
+            [&](double q) {
+                const double x = 2 * q, z = x * (2 - x);
+                return (point.x() - x) * (point.x() - x) + (point.z() - z) * (point.z() - z);
+            },
+            400);
+        return std::hypot(across, std::max({0.0, -point.y(), point.y() - 1}));
+    };
+    compareDistances(surface({0, 0, 0, 2, 2, 2}), distance, 1e-7);  // thirds find a place to 1e-8
+    compareDistances(surface({0, 0, 0, .1, 2, 2, 2}), distance, 1e-7);
 }
 
 // Grains around a NURBS, also at its edges and beside them, are moved onto it.
@@ -142,21 +264,6 @@ TEST(MercuryPrograms, nurbsWallIsFilled) {
     const double sag = 5 * s->getMassFromRadius(.1) / s->getStiffness() * 1.1 * 1.1 / (1.1 * 1.1 - 0.9 * 0.9);
     EXPECT_NEAR(lowest, std::sqrt(1.1 * 1.1 - 0.9 * 0.9), 2 * sag);
     EXPECT_LT(dpm.getKineticEnergy(), 1e-8 * 5 * s->getMassFromRadius(.1));
-}
-
-/// m, the least of a function of q from 0 to 1, which gives the square of a distance: of many samples, and
-/// between the neighbours of the least one by thirds.
-double leastOf(const std::function<double(double)>& square, int samples) {
-    int best = 0;
-    for (int k = 1; k <= samples; ++k)
-        if (square(1.0 * k / samples) < square(1.0 * best / samples)) best = k;
-    double low = std::max(0.0, (best - 1.0) / samples), high = std::min(1.0, (best + 1.0) / samples);
-    for (int k = 0; k < 80; ++k) {
-        const double third = (high - low) / 3;
-        if (square(low + third) < square(high - third)) high -= third;
-        else low += third;
-    }
-    return std::sqrt(square(0.5 * (low + high)));
 }
 
 /// m, of a point from the blade of the screw of the test below: at each q it is a straight line from the

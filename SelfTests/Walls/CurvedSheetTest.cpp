@@ -79,6 +79,46 @@ TEST(CurvedSheet, knowsWhatGoesThrough) {
     EXPECT_FALSE(thick.crosses({2.55, 0, 0}, {2.52, 0, 0}));
 }
 
+/// A roof over x from 0 to 2, whose ridge is at x = 1, z = 1; of two pieces.
+SurfaceFormula roof() {
+    return {"Roof",
+            {0, 0},
+            {2, 1},
+            {4, 1},
+            [](double u, double v) {
+                const double slope = u < 1 ? 1 : -1;
+                return SurfaceJet{{u, v, 1 + slope * (u - 1)},
+                                  {1, 0, slope},
+                                  {0, 1, 0},
+                                  Vec3D::Zero(),
+                                  Vec3D::Zero(),
+                                  Vec3D::Zero()};
+            },
+            {2, 1}};
+}
+
+// The nearest point of what goes straight through a ridge is on it, where no way is across.
+TEST(CurvedSheet, knowsWhatGoesThroughABend) {
+    struct Roof : Sheet {
+        Roof() { set(roof(), 0); }
+    } wall;
+    EXPECT_TRUE(wall.crosses({1, 0.5, 1.05}, {1.01, 0.5, 0.9}));
+    EXPECT_TRUE(wall.crosses({1, 0.5, 0.95}, {1, 0.5, 1.02}));
+    EXPECT_FALSE(wall.crosses({0.98, 0.5, 1.05}, {1.02, 0.5, 1.05}));
+    EXPECT_FALSE(wall.crosses({2.1, 0.5, 0}, {1.95, 0.5, -0.1}));  // round its end
+}
+
+TEST(CurvedSheet, refusesAPointThatIsNotFinite) {
+    SurfaceFormula hole = torus(2, 0.5);
+    hole.at = [at = hole.at](double u, double v) {
+        SurfaceJet jet = at(u, v);
+        if (u > 3 && u < 3.5) jet.point.y() = std::nan("");
+        return jet;
+    };
+    const std::string text = refusal([&] { CurvedSheet().set(hole, 0); });
+    EXPECT_TRUE(isOneSentence(text) && contains(text, "is not finite")) << text;
+}
+
 // A smooth ball inside the tube swings about its lowest place with the energy that it has.
 TEST(CurvedSheet, keepsEnergyOfWhatSlidesOnIt) {
     Simulation<LinearViscoelasticSpecies> scene;
