@@ -115,6 +115,7 @@ TEST_F(Mpi, allEndWhereOneFails) {
           {"disk", "0", "Error: [^\n]*cannot be written[^\n]*\\."},
           {"piece", "1", "Error: [^\n]*-rank1\\.vtp cannot be [^\n]*\\."},
           {"gather", "1", "Error: Ranks wait for each other in different calls[^\n]*\\."},
+          {"sum", "1", "Error: Ranks wait for each other in different calls[^\n]*\\."},
           {"term", "1", "SIGTERM has stopped the run at time [^\n]* after 120 steps; restart from [^\n]*\\."},
           {"kill", "1", ""}}) {
         SCOPED_TRACE(what);

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <thread>
 
@@ -58,9 +59,11 @@ public:
         MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &threads);
         MPI_Comm_dup(MPI_COMM_WORLD, &work);
         MPI_Comm_dup(MPI_COMM_WORLD, &reductions);
+        MPI_Comm_dup(MPI_COMM_WORLD, &additions);
         MPI_Comm_dup(MPI_COMM_WORLD, &failures);
         MPI_Comm_set_errhandler(work, MPI_ERRORS_RETURN);
         MPI_Comm_set_errhandler(reductions, MPI_ERRORS_RETURN);
+        MPI_Comm_set_errhandler(additions, MPI_ERRORS_RETURN);
         MPI_Comm_set_errhandler(failures, MPI_ERRORS_RETURN);
         MPI_Comm_rank(work, &number);
         MPI_Comm_size(work, &all);
@@ -111,11 +114,13 @@ public:
     [[nodiscard]] double waited() const override { return waiting.seconds(); }
 
     void addUp(std::span<std::int64_t> integers) override {
+        if (integers.size() > std::numeric_limits<int>::max())
+            throw RunError("Ranks cannot add up so many numbers at once: MPI counts them by an int.");
         begin(Call::AddUp);
         sums.assign(integers.begin(), integers.end());
         wait([&](MPI_Request* request) {
             return MPI_Iallreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_INT64_T,
-                                  MPI_SUM, reductions, request);
+                                  MPI_SUM, additions, request);
         });
         std::ranges::copy(sums, integers.begin());
     }
@@ -308,8 +313,10 @@ private:
     std::vector<MPI_Request> reduction;  // that has begun
 
     Stopwatch waiting;
-    // Reductions that some ranks call and others do not take nothing from exchanges: these wait.
-    MPI_Comm work = MPI_COMM_NULL, reductions = MPI_COMM_NULL, failures = MPI_COMM_NULL;
+    // Reductions that some ranks call and others do not take nothing from exchanges, or from those of the
+    // other kind: all wait.
+    MPI_Comm work = MPI_COMM_NULL, reductions = MPI_COMM_NULL, additions = MPI_COMM_NULL,
+             failures = MPI_COMM_NULL;
     std::size_t part = largestPart();
     Waiting waitsIn, news;     // of this rank; of the one before it
     std::int64_t tellsOf = 0;  // the number of the call of which the next rank knows

@@ -46,6 +46,7 @@ private:
         if (isDue("term", 120)) std::raise(SIGTERM);
         if (isDue("leave", 120)) std::exit(0);
         if (isDue("gather", 120)) gather();
+        if (isDue("sum", 120)) static_cast<void>(sumOverRanks(1));
         if (isDue("disk", 120) || isDue("piece", 120)) {  // as a full disk: no file grows any more
             std::signal(SIGXFSZ, SIG_IGN);
             const rlimit none{0, 0};
