@@ -90,7 +90,7 @@ void ContactSystem::gather(Grains& grains) {
 void ContactSystem::gatherGrains(Grains& grains, RememberedContacts& remembered, GatheredOn where) {
     gatherCounts();
     ContactMigration migration(remembered, contacts.memory, grains);
-    sharing->gather(grains, migration.luggage(sharing->rank()), where);
+    sharing->gather(grains, periodic, migration.luggage(sharing->rank()), where);
     if (sharing->areDistributed()) return;  // still: it has sent its own
     const auto [all, unequal] = migration.file();
     sharing->countHeldTwice(all, unequal);

@@ -44,13 +44,16 @@ template <class Series>
 void FrameOutput<Series>::add(SceneFrame frame, const Scene& scene) {
     if constexpr (Series::hasParts) {
         const AllRanks& ranks = scene.contacts().ranks();
-        if (ranks.areSeveral()) return series->addPart(std::move(frame), scene.getNumberOfThreads(), ranks);
+        if (parts && ranks.areSeveral())
+            return series->addPart(std::move(frame), scene.getNumberOfThreads(), ranks);
     }
     series->add(std::move(frame), scene.getNumberOfThreads());
 }
 
 template <class Series>
 void FrameOutput<Series>::complete(const Scene& scene) {
+    // A run that ends with an error: the first rank alone comes here, without the grains of the others.
+    if (scene.contacts().ranks().areSeveral()) return;
     if (scene.isRestarted() && !isKnown && !series) write(scene);
 }
 

@@ -4,11 +4,15 @@
 
 #include <deque>
 #include <exception>
-#include <string>
+#include <set>
+#include <stdexcept>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Files/OwnFile.h"
+#include "Kernel/Files/TextFile.h"
 #include "Kernel/Files/WrittenBeside.h"
+#include "Kernel/Output/VtkArrays.h"
+#include "Kernel/Output/XmlText.h"
 
 namespace pendular {
 
@@ -40,12 +44,50 @@ private:
     const AllRanks& ranks;
 };
 
-std::string beginOfPieces(const std::filesystem::path& index) { return index.stem().string() + "-rank"; }
+/// All, or none.
+void writeIndices(const std::vector<FramePart>& parts, std::size_t ranks) {
+    try {
+        for (const FramePart& part : parts) {
+            std::vector<std::string> names;
+            for (std::size_t rank = 0; rank < ranks; ++rank)
+                names.push_back(pieceOf(part.index, rank).filename().string());
+            writePieces(part.index, part.data, names);
+        }
+    } catch (...) {
+        for (const FramePart& part : parts) removeFile(part.index);
+        throw;
+    }
+}
+
+/// How many pieces an index names; 0 where it cannot be read.
+std::size_t countPieces(const std::filesystem::path& index) noexcept {
+    try {
+        return pieceNames(loadInputFile("VTK file", index).text).size();
+    } catch (...) {
+        return 0;
+    }
+}
 
 }  // namespace
 
 std::filesystem::path pieceOf(const std::filesystem::path& index, std::size_t rank) {
-    return index.parent_path() / fmt::format("{}{}.vtp", beginOfPieces(index), rank);
+    return index.parent_path() / fmt::format("{}-rank{}.vtp", index.stem().string(), rank);
+}
+
+std::vector<std::string> pieceNames(std::string_view text) {
+    std::vector<std::string> names;
+    std::set<std::string> known;
+    for (const vtk::Tag& tag : vtk::parseTags(text)) {
+        if (tag.name != "Piece") continue;
+        const std::string& name = names.emplace_back(unescaped(std::string(vtk::valueOf(tag, "Source"))));
+        if (!name.ends_with(".vtp") || name.find('/') != name.npos)
+            throw std::runtime_error(
+                fmt::format("has a piece '{}', which is no .vtp file beside it", shown(name)));
+        if (!known.insert(name).second)
+            throw std::runtime_error(fmt::format("has the piece '{}' more than once", shown(name)));
+    }
+    if (names.empty()) throw std::runtime_error("has no pieces");
+    return names;
 }
 
 void writeInParts(const std::vector<FramePart>& parts, int threads, const AllRanks& ranks) {
@@ -61,26 +103,18 @@ void writeInParts(const std::vector<FramePart>& parts, int threads, const AllRan
     pieces.onAll([&] {
         for (WrittenBeside& piece : pieces.files) piece.close();
     });
-    if (!ranks.isFirst()) return;
-    for (const FramePart& part : parts) {
-        std::vector<std::string> names;
-        for (std::size_t rank = 0; rank < ranks.count(); ++rank)
-            names.push_back(pieceOf(part.index, rank).filename().string());
-        writePieces(part.index, part.data, names);
-    }
+    pieces.onAll([&] {
+        if (ranks.isFirst()) writeIndices(parts, ranks.count());
+    });
 }
 
 void removeWithPieces(const std::filesystem::path& file) noexcept {
+    const std::size_t named = file.extension() == ".pvtp" ? countPieces(file) : 0;
     removeFile(file);
     if (file.extension() != ".pvtp") return;
     std::error_code ignored;
-    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-    for (std::filesystem::directory_iterator at(folder, ignored), end; !ignored && at != end;
-         at.increment(ignored)) {
-        const std::filesystem::path& found = at->path();
-        if (found.filename().string().starts_with(beginOfPieces(file)) && found.extension() == ".vtp")
-            removeFile(found);
-    }
+    for (std::size_t rank = 0; rank < named || std::filesystem::exists(pieceOf(file, rank), ignored); ++rank)
+        removeFile(pieceOf(file, rank));
 }
 
 }  // namespace pendular

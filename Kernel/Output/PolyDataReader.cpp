@@ -4,7 +4,9 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Files/FileContent.h"
+#include "Kernel/Files/OwnFile.h"
 #include "Kernel/Files/TextFile.h"
+#include "Kernel/Output/FrameParts.h"
 #include "Kernel/Output/JoinPieces.h"
 #include "Kernel/Output/PolyData.h"
 #include "Kernel/Output/VtkArrays.h"
@@ -90,20 +92,6 @@ private:
     vtk::Tag connectivity;
 };
 
-/// The files beside a .pvtp file that it names.
-std::vector<std::string> pieceNames(std::string_view text) {
-    std::vector<std::string> names;
-    for (const vtk::Tag& tag : vtk::parseTags(text)) {
-        if (tag.name != "Piece") continue;
-        names.push_back(unescaped(std::string(vtk::valueOf(tag, "Source"))));
-        if (!names.back().ends_with(".vtp") || names.back().find('/') != std::string::npos)
-            throw std::runtime_error(
-                fmt::format("has a piece '{}', which is no .vtp file beside it", shown(names.back())));
-    }
-    if (names.empty()) throw std::runtime_error("has no pieces");
-    return names;
-}
-
 }  // namespace
 
 PolyData readPolyData(const std::filesystem::path& path) {
@@ -112,8 +100,10 @@ PolyData readPolyData(const std::filesystem::path& path) {
     try {
         if (path.extension() != ".pvtp") return std::move(Reader(file.text).result);
         std::vector<PolyData> pieces;
-        for (const std::string& name : pieceNames(file.text))
+        for (const std::string& name : pieceNames(file.text)) {
+            requireOwnIfThere(path.parent_path() / name);
             pieces.push_back(readPolyData(path.parent_path() / name));
+        }
         return joined(std::move(pieces));
     } catch (const InputError&) {
         throw;  // of a piece

@@ -38,10 +38,12 @@ void takeBodies(Message& message, RigidBodies& bodies, bool areGhosts) {
 void GrainSharing::distribute(ParticleStore& grains, const PeriodicBox& box, double reach,
                               const Luggage& luggage) {
     times.beginList(exchange);
-    // After an output all ranks go on as before: the first one does not know what its own grains take.
-    const bool goesOn = !std::exchange(wereOwn, {}).empty();
-    if (!isDistributed || options.cutsWander || (!goesOn && areImbalanced(grains, luggage)))
+    // After an output the cuts are those from before it: the first rank does not know what its own take.
+    const bool isAfterOutput = !std::exchange(wereOwn, {}).empty();
+    const double before = done.cutting;
+    if (!isDistributed || options.cutsWander || (!isAfterOutput && areImbalanced(grains, luggage)))
         cutAnew(grains, box, luggage);
+    done.listing -= done.cutting - before;  // which RankTimes counts
     migrate(grains, box, luggage);
     isDistributed = grains.isShared = true;
     findGhosts(grains, box, reach);
@@ -61,7 +63,7 @@ RankCounts GrainSharing::counts() const {
     const RankTimes::Sums took = times.sums(exchange);
     all.working = took.working;
     all.waiting = took.waiting;
-    all.listing = took.listing - done.cutting;
+    all.listing += took.listing;
     return all;
 }
 
@@ -119,7 +121,12 @@ void GrainSharing::takeGrains(Message message, ParticleStore& grains, const Lugg
     luggage.unpack(message);
 }
 
-void GrainSharing::gather(ParticleStore& grains, const Luggage& luggage, GatheredOn where) {
+void GrainSharing::gather(ParticleStore& grains, const PeriodicBox& box, const Luggage& luggage,
+                          GatheredOn where) {
+    if (where == GatheredOn::FirstRank) {
+        times.beginList(exchange);  // the list that comes after the output
+        if (areImbalanced(grains, luggage)) cutAnew(grains, box, luggage);
+    }
     times.endSteps(exchange);
     const auto gets = [&](std::size_t q) { return where == GatheredOn::AllRanks || q == 0; };
     const std::size_t self = exchange.rank();

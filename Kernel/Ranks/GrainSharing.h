@@ -68,8 +68,8 @@ public:
     void distribute(ParticleStore& grains, const PeriodicBox& box, double reach, const Luggage& luggage);
     /// All ranks get all grains, as before the first list; or the first one alone does, and the others keep
     /// theirs, with their ghosts. What a rank has that got them is that of the scene: nothing is to be summed
-    /// over ranks until the next list.
-    void gather(ParticleStore& grains, const Luggage& luggage, GatheredOn where);
+    /// over ranks until the next list. Before the first one gets all, space is cut anew where that is due.
+    void gather(ParticleStore& grains, const PeriodicBox& box, const Luggage& luggage, GatheredOn where);
     /// The first rank, which alone had got all grains, has its own ones again, and all ranks can share them.
     void dropOthers(ParticleStore& grains);
     /// The next time, all ranks have all grains whose identities begin at this one, as at first.

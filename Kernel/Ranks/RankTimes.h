@@ -19,7 +19,7 @@ public:
     void endList(const Exchange& exchange);
     void addStep() { ++steps; }
     /// Grains are gathered: what comes until the next list are no steps, and those before it, which end
-    /// early, say nothing of how slow a rank is.
+    /// early, say nothing of how slow a rank is, unless beginList() has taken them.
     void endSteps(const Exchange& exchange);
 
     /// Whether one rank has too much more to do than the mean, of a scene that is worth it. All ranks ask

@@ -191,6 +191,25 @@ void Run::gatherForDriver() {
     if (!leavesGrains) gather();
 }
 
+namespace {
+
+/// Whether the driver has a writeOutput() of its own, which may call that of Run. By an extension of GCC,
+/// "Extracting the Function Pointer from a Bound Pointer to Member Function"; with other compilers it is
+/// taken to have one.
+bool hasOwnOutput([[maybe_unused]] Run& run) {
+#if defined(__GNUC__) && !defined(__clang__)
+    #pragma GCC diagnostic push
+    #pragma GCC diagnostic ignored "-Wpmf-conversions"
+    using Plain = void (*)(Run*);
+    return (Plain)(run.*(&Run::writeOutput)) != (Plain)(&Run::writeOutput);
+    #pragma GCC diagnostic pop
+#else
+    return true;
+#endif
+}
+
+}  // namespace
+
 /// All ranks come here in the same step, with the same outputs. Where ranks have their own grains only, those
 /// in parts come first.
 /// @param own writeOutput() is due, too
@@ -199,7 +218,7 @@ void Run::write(const std::vector<const KeptOutput*>& due, bool own) {
     for (const KeptOutput* const output : due)
         if (output->inParts && areGrainsOnRanks()) output->write();
         else whole.push_back(output);
-    if (own && writesByItself) gatherForDriver();
+    if (own && hasOwnOutput(*this)) gatherForDriver();
     if (!whole.empty())
         onFirstRank([&] {
             for (const KeptOutput* const output : whole) output->write();

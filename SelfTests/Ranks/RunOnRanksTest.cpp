@@ -204,6 +204,35 @@ TEST(RunOnRanks, divideTheLoadAgain) {
     for (const double load : loads) EXPECT_LT(load, 1.15 * GrowingCloud::grains / 4);
 }
 
+/// Remembers how many grains the rank has in the steps.
+class CloudWithOutputs : public GrowingCloud {
+public:
+    struct Output : RemembersNothing {
+        static void write(const Scene&) {}
+    };
+    CloudWithOutputs() {
+        setSaveCount(1);
+        addOutput(Output());
+    }
+    std::size_t own = 0;
+
+private:
+    void actionsAfterTimeStep() override { own = particleHandler.getSize(); }
+};
+
+/// Where an output comes after each step, before contacts are due to be listed.
+TEST(RunOnRanks, divideTheLoadAtOutputs) {
+    std::array<std::size_t, 4> own{};
+    VirtualRanks(4).run([&](Exchange& exchange) {
+        CloudWithOutputs scene;
+        scene.setRanks(exchange, {.balanceAfter = infinity});
+        scene.runSteps(200);
+        own[exchange.rank()] = scene.own;
+    });
+    EXPECT_EQ(own[0] + own[1] + own[2] + own[3], std::size_t{GrowingCloud::grains});
+    for (const std::size_t size : own) EXPECT_LT(size, 1.15 * GrowingCloud::grains / 4);
+}
+
 /// The grains of the half that moves least take four times as long as the others. Where they count alike, the
 /// ranks that have them take 1.6 times the mean.
 class UnevenCloud : public GrowingCloud {
