@@ -25,7 +25,7 @@ public:
     [[nodiscard]] std::optional<Share> takeLast() { return take<false>(); }
 
 private:
-    struct Numbers {
+    struct alignas(8) Numbers {  // one number of 64 bits to the processor
         std::uint32_t begin = 0, end = 0;
     };
 
