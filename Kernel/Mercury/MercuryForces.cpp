@@ -20,6 +20,7 @@ std::span<const Conflict> MercuryForces::ownConflicts() const {
         Conflict{Feature::OwnPart, Feature::Superquadrics, single, takeSpheres},
         Conflict{Feature::OwnPart, Feature::EarlierAccelerations, "these forces act by the steps of Verlet",
                  "take integrators::predictedVelocityVerlet or velocityVerlet"}};
+    if (known == Known::Unknown) return {};
     return table;
 }
 

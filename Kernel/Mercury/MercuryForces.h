@@ -38,7 +38,7 @@ public:
 
     [[nodiscard]] std::string_view name() const override { return "forces of the driver"; }
     [[nodiscard]] Features features(const StepContext& /*scene*/) const override {
-        return known == Known::Some ? Features{Feature::OwnPart} : Features{};
+        return known == Known::None ? Features{} : Features{Feature::OwnPart};
     }
     [[nodiscard]] std::span<const Conflict> ownConflicts() const override;
     void beforeMotion(StepContext& step) override;
