@@ -10,7 +10,6 @@
 #include "Kernel/Output/JoinPieces.h"
 #include "Kernel/Output/PolyData.h"
 #include "Kernel/Output/VtkArrays.h"
-#include "Kernel/Output/XmlText.h"
 
 namespace pendular {
 

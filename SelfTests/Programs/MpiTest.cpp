@@ -138,6 +138,16 @@ TEST_F(Mpi, allEndWhereOneFails) {
     }
 }
 
+/// A run that goes on from a file without frames, and fails before its first one: the first rank does not
+/// wait for the others to write one.
+TEST_F(Mpi, whatFailsBeforeItsFirstFrameSaysWhy) {
+    EXPECT_EQ(run(program + in("run") + " 50 bare 0").exitCode, 0);
+    const ProgramResult result = run(onRanks(2) + program + in("run") + " 200 early 0");
+    EXPECT_NE(result.exitCode, 0);
+    EXPECT_EQ(countOf(result.output, "Error: A grain of this rank has gone"), 1u) << result.output;
+    EXPECT_EQ(countOf(result.output, "different calls"), 0u) << result.output;
+}
+
 /// Messages above 1 GiB go in parts; here above 1000 bytes.
 TEST_F(Mpi, longMessagesGoInParts) {
     EXPECT_EQ(run(program + in("1") + " 200").exitCode, 0);

@@ -28,7 +28,7 @@ public:
         setTimeMax(static_cast<double>(steps) * getTimeStep());
         setSaveCount(50);
         keepRestartFile();
-        addOutput(ParaViewOutput().withParts(what == "piece"));
+        if (what != "bare") addOutput(ParaViewOutput().withParts(what == "piece"));
         if (std::filesystem::exists(restartFile())) restartFrom(restartFile());
     }
 
@@ -41,7 +41,7 @@ private:
         if (isDue("setup", 0)) throw InputError("The scene of this rank is wrong.");
     }
     void actionsAfterTimeStep() override {
-        if (isDue("step", 120)) throw RunError("A grain of this rank has gone.");
+        if (isDue("step", 120) || isDue("early", 60)) throw RunError("A grain of this rank has gone.");
         if (isDue("kill", 120)) std::raise(SIGKILL);
         if (isDue("term", 120)) std::raise(SIGTERM);
         if (isDue("leave", 120)) std::exit(0);
