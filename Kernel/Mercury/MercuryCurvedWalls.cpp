@@ -63,7 +63,7 @@ public:
     Spans(const std::vector<double>& ofKnots, std::size_t degree)
         : knots(ofKnots.begin() + static_cast<std::ptrdiff_t>(degree),
                 ofKnots.end() - static_cast<std::ptrdiff_t>(degree)) {
-        knots.erase(std::ranges::unique(knots).begin(), knots.end());
+        knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
     }
     [[nodiscard]] std::size_t number() const { return knots.size() - 1; }
     struct Place {
