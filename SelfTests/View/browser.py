@@ -1,5 +1,6 @@
 """A browser without a screen, for tests of the page: Debian's Chromium, which draws in software."""
 import contextlib
+import os
 import shutil
 import time
 
@@ -12,6 +13,15 @@ FLAGS = ("--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-
 
 def is_there():
     return all(map(shutil.which, ("chromium", "chromedriver")))
+
+
+def what_is_missing():
+    """A sentence, for a test that is left out; empty where there is all."""
+    if not is_there():
+        return "Chromium is not installed"
+    if not os.path.exists(os.path.join(os.environ.get("PENDULAR_VIEW_PAGE", ""), "main.js")):
+        return "the page is not built: cmake --build BUILD --target view-page"
+    return ""
 
 
 class Page:

@@ -10,8 +10,8 @@ import time
 import pytest
 
 browser = pytest.importorskip("browser")
-if not browser.is_there():
-    pytest.skip("Chromium is not installed", allow_module_level=True)
+if browser.what_is_missing():
+    pytest.skip(browser.what_is_missing(), allow_module_level=True)
 
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By

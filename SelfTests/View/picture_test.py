@@ -4,8 +4,8 @@ import math
 import pytest
 
 browser = pytest.importorskip("browser")
-if not browser.is_there():
-    pytest.skip("Chromium is not installed", allow_module_level=True)
+if browser.what_is_missing():
+    pytest.skip(browser.what_is_missing(), allow_module_level=True)
 
 VIRIDIS = ["440154", "48287c", "3e4a89", "31688e", "26828e", "1f9e89", "35b779", "6dcd59", "b4de2c", "fde725"]
 
