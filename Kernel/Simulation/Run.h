@@ -37,7 +37,7 @@ public:
     virtual void actionsBeforeTimeStep() {}
     virtual void actionsAfterTimeStep() {}
     /// Called at the start, after every saveCount steps and at the end.
-    virtual void writeOutput() { writesByItself = false; }
+    virtual void writeOutput() {}
     /// Called when the run has ended, or was asked to stop: files are to be completed here.
     virtual void completeOutput() {}
     /// Visits what the driver itself remembers from step to step, for restart files (StateArchive says how).
@@ -255,7 +255,6 @@ private:
     double timeStep, timeMax = 0;  // s
     bool timeMaxIsSet = false;     // else the run in parts has no end, and timeMax is that of the part
     std::size_t saveCount = 0;
-    bool writesByItself = true;  // until writeOutput() has been found to be that of Run
     bool leavesGrains = false;
     std::size_t steps = 0, firstStep = 0;
     std::size_t stepsBefore = 0;  // those with another time step

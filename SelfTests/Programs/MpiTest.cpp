@@ -46,18 +46,24 @@ protected:
     }
     const TestFolder folder;
     [[nodiscard]] std::string in(const std::string& name) const { return (folder.path() / name).string(); }
+    /// Of runs that begin on 2 or 3 ranks and go on with 3 or 2.
+    /// @param start what starts a program on a number of ranks
+    template <class Start>
+    void expectTheFilesOfOneProcess(const Start& start) const {
+        EXPECT_EQ(run(program + in("1") + " 200").exitCode, 0);
+        for (const int ranks : {2, 3}) {
+            const std::string own = in(std::to_string(ranks));
+            const ProgramResult begun = run(start(ranks) + program + own + " 100");
+            EXPECT_EQ(begun.exitCode, 0) << begun.output;
+            const ProgramResult ended = run(start(5 - ranks) + program + own + " 200");
+            EXPECT_EQ(ended.exitCode, 0) << ended.output;
+            expectSameFiles(in("1"), own, timed);
+        }
+    }
 };
 
 TEST_F(Mpi, runsHaveTheFilesOfOneProcess) {
-    EXPECT_EQ(run(program + in("1") + " 200").exitCode, 0);
-    for (const int ranks : {2, 3}) {
-        const std::string own = in(std::to_string(ranks));
-        const ProgramResult begun = run(onRanks(ranks) + program + own + " 100");
-        EXPECT_EQ(begun.exitCode, 0) << begun.output;
-        const ProgramResult ended = run(onRanks(5 - ranks) + program + own + " 200");
-        EXPECT_EQ(ended.exitCode, 0) << ended.output;
-        expectSameFiles(in("1"), own, timed);
-    }
+    expectTheFilesOfOneProcess([](int ranks) { return onRanks(ranks); });
 }
 
 /// Sprays, liquid that moves with inlet and outlet, bodies that come and leave, heat and bonds: on two
@@ -188,15 +194,7 @@ TEST_F(LongMpi, worksWithMpich) {
     const auto onMpich = [&](int count) {
         return fmt::format("PENDULAR_MPI_MODULE={} timeout 300 mpirun.mpich -n {} ", module, count);
     };
-    EXPECT_EQ(run(program + in("1") + " 200").exitCode, 0);
-    for (const int ranks : {2, 3}) {
-        const std::string own = in(std::to_string(ranks));
-        const ProgramResult begun = run(onMpich(ranks) + program + own + " 100");
-        EXPECT_EQ(begun.exitCode, 0) << begun.output;
-        const ProgramResult ended = run(onMpich(5 - ranks) + program + own + " 200");
-        EXPECT_EQ(ended.exitCode, 0) << ended.output;
-        expectSameFiles(in("1"), own, timed);
-    }
+    expectTheFilesOfOneProcess(onMpich);
     for (const std::string fault : {"setup", "step", "output", "piece", "gather"}) {
         const ProgramResult result = run(onMpich(2) + program + in(fault) + " 200 " + fault + " 1");
         EXPECT_NE(result.exitCode, 0);
