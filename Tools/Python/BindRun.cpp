@@ -26,8 +26,7 @@ double chooseTimeStep(PythonScene& scene, double stepsInContact) {
     if (!(step < infinity))
         throw InputError(
             "choose_time_step() finds no contact that could be: it comes after grains are there, or inlets "
-            "that "
-            "add them.");
+            "that add them.");
     of.setTimeStep(step);
     return of.getTimeStep();
 }
@@ -73,9 +72,9 @@ void bindTime(SceneClass& scene) {
             py::arg("error"), py::arg("speed") = py::none(),
             "The time step for an error (1) of collisions at a speed (m/s; by default the largest that the "
             "scene is about to have): collisions of two grains are computed with steps of many lengths, and "
-            "the "
-            "longest that is exact enough is taken. One above the stability limit is accepted; the summary "
-            "says what was found. At set-up, when species, integrator, walls and grains are there.\n\n"
+            "the longest that is exact enough is taken. One above the stability limit is accepted; the "
+            "summary says what was found. At set-up, when species, integrator, walls and grains are "
+            "there.\n\n"
             "error: from 0.0001 to 0.1; speed: m/s. Returns what was found, in a few sentences.")
         .def(
             "accept_unstable_time_step", [](PythonScene& s) { s.scene().acceptUnstableTimeStep(); },
