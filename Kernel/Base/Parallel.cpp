@@ -7,9 +7,11 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
-#include <deque>
+#include <memory>
+#include <span>
 #include <system_error>
 #include <thread>
+#include <vector>
 
 namespace pendular {
 
@@ -21,25 +23,71 @@ inline void pause() {
 #endif
 }
 
-/// Looks for a while whether something is so: the parts of a step follow each other within some
-/// microseconds, and a thread wakes in some fifty.
+using Clock = std::chrono::steady_clock;
+
+/// The parts of a step follow each other within some microseconds, and a thread wakes in some fifty.
+constexpr auto longestWait = std::chrono::microseconds(200);
+
+/// Looks for a while whether something is so.
 template <class Condition>
 bool isSoonSo(Condition&& condition) {
-    constexpr auto longest = std::chrono::microseconds(200);
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     do {
         for (int k = 0; k < 32; ++k) {
             if (condition()) return true;
             pause();
         }
-    } while (std::chrono::steady_clock::now() - start < longest);
+    } while (Clock::now() - start < longestWait);
     return false;
 }
+
+/// When a thread that helps does not help for a while. Where another program needs its processor it comes
+/// late, or stops in the middle of its work for some milliseconds, in which the one that waits for it does
+/// nothing. Where that has cost more than the help had gained it rests, longer each time: two threads beside
+/// another program take no longer than one.
+class Rest {
+public:
+    [[nodiscard]] bool lastsAt(Clock::time_point now) const { return now < end; }
+    [[nodiscard]] Clock::time_point endsAt() const { return end; }
+    /// It has worked beside the thread that waits for it, for this time: what saved half of it, or more.
+    void noteHelp(Clock::duration time) {
+        credit += time / 2;
+        if (credit < mostCredit) return;
+        credit = mostCredit;
+        length = {};  // others have let it work
+    }
+    void noteWait(Clock::duration time) { credit -= time; }
+    /// It had not come yet when all was done, after this time: a quarter of which would have been saved
+    /// without it, as what was shared lay in the caches of two cores.
+    void noteLate(Clock::duration time) { credit -= time / 4; }
+    /// After these.
+    void beginIfDue(Clock::time_point now) {
+        if (credit >= Clock::duration::zero()) return;
+        credit = firstCredit;
+        length = std::clamp(2 * length, shortest, longest);
+        end = now + length;
+    }
+
+private:
+    /// Some times what a scheduler gives a thread at once.
+    static constexpr Clock::duration firstCredit = std::chrono::milliseconds(5),
+                                     mostCredit = std::chrono::milliseconds(20),
+                                     shortest = std::chrono::milliseconds(4),
+                                     longest = std::chrono::seconds(1);
+
+    Clock::time_point end;
+    Clock::duration length{}, credit = firstCredit;
+};
 
 /// Threads that wait for work. They end with the process.
 class ThreadPool {
 public:
     [[nodiscard]] bool isOfThisProcess() const { return process == getpid(); }
+    /// All threads do that were asked last.
+    [[nodiscard]] bool rests() const {
+        const Clock::duration to = allRestTo.load(std::memory_order_relaxed);
+        return to != Clock::duration::zero() && Clock::now().time_since_epoch() < to;
+    }
 
     /// False, and nothing is done, where the threads are at work already.
     bool run(int count, void (*call)(void*, int), void* context) {
@@ -63,6 +111,7 @@ private:
     enum State : int { idle, asleep, offered, running, waitedFor };
     struct alignas(64) Worker {
         std::atomic<int> state{idle};
+        Rest rest;  // for the thread that offers work
 
         bool goes(int from, int to) {
             return state.compare_exchange_strong(from, to, std::memory_order_acq_rel);
@@ -74,28 +123,56 @@ private:
     };
 
     /// A worker that has not begun when this thread has done its own part does not run: its processor has
-    /// other work, or there are fewer processors than threads. Its part is done here then.
+    /// other work, or there are fewer processors than threads. Its part is done here then, as that of one
+    /// that rests.
     void share(int count, void (*call)(void*, int), void* context) {
-        const auto helpers = static_cast<std::size_t>(count - 1);
-        staysAwake.store(count <= processorCount(), std::memory_order_relaxed);
+        const std::span helpers(workers.data(), static_cast<std::size_t>(count - 1));
+        const bool isAwake = count <= processorCount();
+        staysAwake.store(isAwake, std::memory_order_relaxed);
         work = {call, context};
-        for (std::size_t k = 0; k < helpers; ++k)
-            if (workers[k].state.exchange(offered, std::memory_order_acq_rel) == asleep)
-                workers[k].state.notify_one();
+        // Tests of small work look for what threads do to it.
+        const bool mayRest = isAwake && !sharesSmallWork();
+        const auto begin = Clock::now();
+        for (const auto& worker : helpers)
+            if (!worker->rest.lastsAt(begin) &&
+                worker->state.exchange(offered, std::memory_order_acq_rel) == asleep)
+                worker->state.notify_one();
         call(context, 0);
-        for (std::size_t k = 0; k < helpers; ++k)
-            if (workers[k].goes(offered, idle)) call(context, static_cast<int>(k) + 1);
-        for (std::size_t k = 0; k < helpers; ++k) waitFor(workers[k]);
+        const auto end = Clock::now();
+        for (std::size_t k = 0; k < helpers.size(); ++k) {
+            Worker& worker = *helpers[k];
+            const bool rests = worker.rest.lastsAt(begin);
+            if (!rests && !worker.goes(offered, idle)) {
+                worker.rest.noteHelp(end - begin);
+                continue;
+            }
+            call(context, static_cast<int>(k) + 1);
+            if (!rests) worker.rest.noteLate(end - begin);
+        }
+        for (const auto& worker : helpers) {
+            worker->rest.noteWait(waitFor(*worker));
+            if (mayRest) worker->rest.beginIfDue(Clock::now());
+        }
+        noteRests(helpers);
     }
-    void waitFor(Worker& worker) {
+    /// @return the time in which this thread was asleep
+    Clock::duration waitFor(Worker& worker) {
         if (staysAwake.load(std::memory_order_relaxed) && isSoonSo([&] { return worker.now() != running; }))
-            return;
-        if (worker.goes(running, waitedFor)) worker.waitWhile(waitedFor);
+            return {};
+        const auto begin = Clock::now();
+        if (!worker.goes(running, waitedFor)) return {};
+        worker.waitWhile(waitedFor);
+        return Clock::now() - begin;
+    }
+    void noteRests(std::span<const std::unique_ptr<Worker>> helpers) {
+        auto first = Clock::time_point::max();
+        for (const auto& worker : helpers) first = std::min(first, worker->rest.endsAt());
+        allRestTo.store(first.time_since_epoch(), std::memory_order_relaxed);
     }
     /// Makes what is missing; false where the system gives no more threads.
     bool hasWorkers(std::size_t wanted) {
         while (workers.size() < wanted) {
-            Worker& worker = workers.emplace_back();
+            Worker& worker = *workers.emplace_back(std::make_unique<Worker>());
             const auto part = static_cast<int>(workers.size());
             try {
                 std::thread([this, &worker, part] { serve(worker, part); }).detach();
@@ -120,7 +197,8 @@ private:
 
     const pid_t process = getpid();
     std::atomic_flag busy;
-    std::deque<Worker> workers;  // a reference to one stays valid
+    std::vector<std::unique_ptr<Worker>> workers;
+    std::atomic<Clock::duration> allRestTo{Clock::duration::zero()};  // since the clock's beginning
     Work work;
     std::atomic<bool> staysAwake{false};
 };
@@ -157,6 +235,8 @@ bool sharesSmallWork() {
     static const bool is = std::getenv("PENDULAR_SHARE_SMALL_WORK") != nullptr;
     return is;
 }
+
+bool helpersRest() { return pool().rests(); }
 
 void onThreads(int count, void (*call)(void*, int), void* context) {
     if (count > 1 && pool().run(count, call, context)) return;

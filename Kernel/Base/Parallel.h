@@ -15,7 +15,9 @@ namespace pendular {
 /// the next call: for some microseconds awake, then asleep, so that they take no time from other programs.
 /// With more threads than processors they sleep at once. A part whose thread has not begun when this one is
 /// done with its own is done here: where other programs run, nobody waits for a thread that does not. A call
-/// within a call, or beside another one, does its parts one after the other.
+/// within a call, or beside another one, does its parts one after the other. A thread that has come late, or
+/// has stopped in the middle of its work, as other programs took its processor, rests for 4 ms to 1 s, and
+/// its parts are done here meanwhile.
 void onThreads(int count, void (*call)(void* context, int part), void* context);
 
 /// How many processors this process may use.
@@ -24,6 +26,9 @@ int processorCount();
 /// Whether also work that is not worth a thread is shared, so that tests of threads can be small: the
 /// environment variable PENDULAR_SHARE_SMALL_WORK is set.
 bool sharesSmallWork();
+
+/// Whether all threads rest but this one: other programs have held them up. Not where small work is shared.
+bool helpersRest();
 
 /// Into how many parts work goes: one for each thread, or fewer where there is less to do.
 /// @param least how many are worth a thread
@@ -83,7 +88,7 @@ inline std::size_t shareOf(std::size_t worth) { return sharesSmallWork() ? 4 : w
 template <class Function>
 void inShares(std::size_t count, int threads, Function&& function, std::size_t least, std::size_t share) {
     const std::size_t parts = partsOf(count, threads, least);
-    if (parts == 1) {
+    if (parts == 1 || helpersRest()) {
         function(0, std::size_t{0}, count);
         return;
     }

@@ -54,6 +54,7 @@ struct ContactTask {
     ContactTiming timing;
     double unlisted;   // m, that bodies can have approached since they were listed
     bool withSamples;  // what the ledger reads of contacts is written
+    bool asksAhead;    // grains and contacts may be far away, and are asked for before they are read
     OverlapWatch* overlaps;
     CapillaryWatch* capillaryNumbers;
     OwnTotals totals;

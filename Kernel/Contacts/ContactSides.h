@@ -92,6 +92,14 @@ public:
         ++ends[grain];
     }
 
+    /// Which grains have contacts with memory, until contacts are listed again.
+    struct Awake {
+        const std::uint32_t *begins, *ends;
+
+        [[nodiscard]] bool any(std::size_t grain) const { return begins[grain] != ends[grain]; }
+    };
+    [[nodiscard]] Awake awake() const { return {begins.data(), ends.data()}; }
+
     [[nodiscard]] std::size_t bytes() const { return bytesOf(begins, ends, sides); }
 
 private:

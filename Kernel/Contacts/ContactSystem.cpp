@@ -670,6 +670,8 @@ void ContactSystem::computeBucket(const Grains& grains, double step, ContactTimi
                                   std::size_t number) {
     constexpr std::size_t blocksOfAShare = 128;
     const Bucket& bucket = contacts.buckets[number];
+    // What another thread has written lies in the cache of its core.
+    const bool asksAhead = (threads > 1 && !helpersRest()) || contacts.bytes() + grains.bytes() > cache;
     const ContactTask task{contacts,
                            grains.translation.data(),
                            grains.rotation.data(),
@@ -684,6 +686,7 @@ void ContactSystem::computeBucket(const Grains& grains, double step, ContactTimi
                            timing,
                            unlisted,
                            hasSamples(bucket),
+                           asksAhead,
                            nullptr,
                            nullptr,
                            {}};

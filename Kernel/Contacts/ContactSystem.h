@@ -121,6 +121,8 @@ public:
     void setSmallestRadius(double radius) { skin.setSmallestRadius(radius); }
     /// Threads for the forces; the results do not depend on it.
     void setThreads(int count) { threads = count; }
+    /// Bytes of the cache that this scene has; results do not depend on it.
+    void setCache(std::size_t bytes) { cache = bytes; }
 
     /// Joins all bodies of the scene by bridges that are within their range and not farther apart than the
     /// gap (m), where bridges begin with a touch and their volume is constant. After the first list.
@@ -410,6 +412,7 @@ private:
     std::size_t ownPlaces = ~std::size_t{0};  // a grain beyond these is a ghost
     double rangeOfAll = 0;                    // m, the largest of two grains on whatever ranks
     int threads = 1;
+    std::size_t cache = 0;  // bytes
     std::size_t rebuilds = 0;
     WallPointSearch wallPoints;
     WallPatches wallPatches;

@@ -53,16 +53,44 @@ public:
 
     [[nodiscard]] OwnTotals of(int thread);
 
+    class Taker;
+    /// Takes totals until begin() is called next.
+    [[nodiscard]] Taker taker();
+    [[nodiscard]] std::size_t bytes() const;
+
+private:
+    struct Copy {
+        ZeroedLines<ForceTotal> totals;
+        std::vector<std::uint8_t> marks;
+
+        void clearMarked();
+    };
+
+    ZeroedLines<ForceTotal> first;  // of the first thread
+    std::vector<Copy> others;
+    bool areZero = false;
+};
+
+/// Takes the totals of grains, one after the other. What it needs of all totals lies in itself, which a loop
+/// over all grains keeps in registers.
+class ForceTotals::Taker {
+public:
+    explicit Taker(ForceTotals& totals)
+        : first(totals.first.data()),
+          others(totals.others.data()),
+          othersEnd(others + totals.others.size()),
+          quantum(totals.quantum) {}
+
     /// Takes the total of a grain, and leaves zero.
-    [[gnu::always_inline]] ForceTotal take(std::size_t grain) {
+    [[gnu::always_inline]] ForceTotal take(std::size_t grain) const {
         // Two vectors, not a ForceTotal: g++ would keep this in memory.
         ForceTotal::Whole force = first[grain].force, torque = first[grain].torque;
         first[grain] = {};
-        for (Copy& copy : others) {
-            if (copy.marks[grain / OwnTotals::grainsOfAMark] == 0) continue;
-            force += copy.totals[grain].force;
-            torque += copy.totals[grain].torque;
-            copy.totals[grain] = {};
+        for (Copy* copy = others; copy != othersEnd; ++copy) {
+            if (copy->marks[grain / OwnTotals::grainsOfAMark] == 0) continue;
+            force += copy->totals[grain].force;
+            torque += copy->totals[grain].torque;
+            copy->totals[grain] = {};
         }
         return {force, torque};
     }
@@ -78,19 +106,13 @@ public:
                 __builtin_convertvector(total.torque, Four) * (newtons * ForceQuantum::lengthOf(radius));
         return sum;
     }
-    [[nodiscard]] std::size_t bytes() const;
 
 private:
-    struct Copy {
-        ZeroedLines<ForceTotal> totals;
-        std::vector<std::uint8_t> marks;
-
-        void clearMarked();
-    };
-
-    ZeroedLines<ForceTotal> first;  // of the first thread
-    std::vector<Copy> others;
-    bool areZero = false;
+    ForceTotal* first;
+    Copy *others, *othersEnd;
+    ForceQuantum quantum;
 };
+
+inline ForceTotals::Taker ForceTotals::taker() { return Taker(*this); }
 
 }  // namespace pendular

@@ -90,22 +90,39 @@ template <bool hasTorque, bool hasContactTorque>
         const auto own = quanta.of(side / 2, (side & 1) == 0 ? 1 : -1);
         for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += own[k];
     }
-    return store.totals.inNewtons<hasTorque>(std::bit_cast<ForceTotal>(sum), radius);
+    return store.totals.taker().inNewtons<hasTorque>(std::bit_cast<ForceTotal>(sum), radius);
 }
 
-/// The sum at the end of a step, which leaves the totals of the grain at zero.
+/// The sums at the end of a step, of one grain after the other. What they read for each grain lies in here,
+/// as a Taker has it.
 template <bool hasTorque, bool hasContactTorque>
-[[gnu::always_inline]] inline ForceAndTorque<hasTorque> takeSum(const ContactStore& store, std::size_t grain,
-                                                                double radius) {
-    // Nothing has been added to the total of a grain without contacts.
-    if (store.sides.of(grain).empty()) return {};
-    if (store.keepsTotals) [[likely]] {
-        ForceTotal total = store.totals.take(grain);
-        if (total.fits()) [[likely]]
-            return store.totals.inNewtons<hasTorque>(total, radius);
+class SumTaker {
+public:
+    explicit SumTaker(const ContactStore& contacts)
+        : store(contacts),
+          sides(contacts.sides.awake()),
+          totals(contacts.totals.taker()),
+          keepsTotals(contacts.keepsTotals) {}
+
+    /// Leaves the total of the grain at zero.
+    /// @param radius of the grain, m
+    [[gnu::always_inline]] ForceAndTorque<hasTorque> take(std::size_t grain, double radius) const {
+        // Nothing has been added to the total of a grain without contacts.
+        if (!sides.any(grain)) return {};
+        if (keepsTotals) [[likely]] {
+            ForceTotal total = totals.take(grain);
+            if (total.fits()) [[likely]]
+                return totals.template inNewtons<hasTorque>(total, radius);
+        }
+        return sumInOrder<hasTorque, hasContactTorque>(store, grain, radius);
     }
-    return sumInOrder<hasTorque, hasContactTorque>(store, grain, radius);
-}
+
+private:
+    const ContactStore& store;
+    ContactSides::Awake sides;
+    ForceTotals::Taker totals;
+    bool keepsTotals;
+};
 
 /// The sum of the records at any time, whatever is kept of a contact: N, and N m about the grain's centre.
 struct ContactSum {

@@ -189,6 +189,13 @@ struct Pack {
             Pack(_mm512_permutex2var_pd(odd01, upper, odd23))};
 }
 
+/// The same indices, as if they were others: g++ would keep the places of eight records in memory from one
+/// use to the next, which costs the contact kernel more than to make them anew.
+[[gnu::always_inline]] inline const std::uint32_t* readAgain(const std::uint32_t* index) {
+    asm volatile("" : "+r"(index));
+    return index;
+}
+
 /// The first `columns` members of the eight records at base + stride * index[k]: lane k of column c is member
 /// c of record k.
 /// @param stride doubles from one record to the next, 8 (base aligned to 64 bytes) or 4 (aligned to 32 bytes)
@@ -196,6 +203,7 @@ template <int columns>
 [[gnu::always_inline]] inline std::array<Pack, columns> loadRecords(const double* base, std::size_t stride,
                                                                     const std::uint32_t* index) {
     static_assert(columns >= 1 && columns <= 8);
+    index = readAgain(index);
     const double* record[8];
 #pragma GCC unroll 8
     for (int k = 0; k < 8; ++k) record[k] = base + stride * index[k];
@@ -256,6 +264,7 @@ requires(columns == 8 || columns == 4)
 /// Aligned to 64 bytes.
 [[gnu::always_inline]] inline void addNearestIntegers(std::int64_t* base, const std::uint32_t* index,
                                                       const std::array<Pack, 8>& column) {
+    index = readAgain(index);
     const auto integers = [](Pack a) { return _mm512_castsi512_pd(_mm512_maskz_cvtpd_epi64(0xff, a.value)); };
     std::array<Pack, 4> first =
         transposeBlocks(integers(column[0]), integers(column[1]), integers(column[2]), integers(column[3]));

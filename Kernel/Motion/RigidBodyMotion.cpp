@@ -205,12 +205,12 @@ private:
     /// The force of all contacts of all grains of a body, and their torque about its centre of mass.
     [[nodiscard]] ForceAndTorque<true> sumForces(std::size_t body, const EightAxes& axes, std::size_t lane,
                                                  const ContactStore& contacts) const {
+        const SumTaker<hasSpin, hasContactTorque> sums(contacts);
         Four force{}, torque{};
         for (std::size_t m = bodies.firstInSpace(body); m < bodies.firstInSpace(body + 1); ++m) {
             if (m + grainsAhead < members.size()) prefetchGrain(members[m + grainsAhead].place);
             const MemberInSpace& member = members[m];
-            const auto sum = takeSum<hasSpin, hasContactTorque>(contacts, member.place,
-                                                                grains.translation[member.place].radius);
+            const auto sum = sums.take(member.place, grains.translation[member.place].radius);
             force += sum.force;
             torque += crossFour(axes.turn(lane, member.arm), sum.force);
             if constexpr (hasSpin) torque += sum.torque;

@@ -10,6 +10,23 @@
 namespace pendular {
 namespace {
 
+/// The columns of the grains that move, as places in memory: a loop keeps these in registers, where it would
+/// ask a ParticleStore for them again at each grain.
+struct Columns {
+    TranslationRecord* translation;
+    RotationRecord* rotation;
+    Vector<double>* acceleration;
+    EarlierAcceleration* earlier;
+    const HeldBits* held;
+
+    explicit Columns(ParticleStore& grains)
+        : translation(grains.translation.data()),
+          rotation(grains.rotation.data()),
+          acceleration(grains.acceleration.data()),
+          earlier(grains.earlier.data()),
+          held(grains.held.data()) {}
+};
+
 template <bool hasSpin, bool hasContactTorque, bool imagesMove>
 class Loops {
 public:
@@ -21,22 +38,24 @@ public:
     static double begin(Grains& grains, double step, int threads, const Integrator& scheme,
                         const PeriodicBox& box) {
         if (scheme.remembersEarlier()) grains.earlier.resize(grains.size());  // of the first grains in a run
-        return largestOfAll(grains, threads, scheme, [&]<bool remembers, bool isHeld>(std::size_t k) {
-            Motion motion = load(grains, k);
-            const double shift2 = move<remembers>(grains, step, scheme, k, box, motion);
-            storeVelocity(grains, k, motion);
-            return shift2;
-        });
+        return largestOfAll(grains, threads, scheme,
+                            [&, columns = Columns(grains)]<bool remembers, bool isHeld>(std::size_t k) {
+                                Motion motion = load(columns, k);
+                                const double shift2 = move<remembers>(columns, step, scheme, k, box, motion);
+                                storeVelocity(columns, k, motion);
+                                return shift2;
+                            });
     }
     /// The new accelerations, and with them the velocities at the end of the step.
     static void finish(Grains& grains, const ContactStore& store, const Vector<double>& gravity, double step,
                        int threads, const Integrator& scheme) {
         largestOfAll(grains, threads, scheme,
-                     [&, weight = fourOf(gravity)]<bool remembers, bool isHeld>(std::size_t k) {
-                         Motion motion = load(grains, k);
-                         accelerate<remembers, isHeld>(grains, store, weight, step, scheme, k, motion);
-                         storeVelocity(grains, k, motion);
-                         storeAcceleration(grains, k, motion);
+                     [&, columns = Columns(grains), sums = Sums(store),
+                      weight = fourOf(gravity)]<bool remembers, bool isHeld>(std::size_t k) {
+                         Motion motion = load(columns, k);
+                         accelerate<remembers, isHeld>(columns, sums, weight, step, scheme, k, motion);
+                         storeVelocity(columns, k, motion);
+                         storeAcceleration(columns, k, motion);
                          return 0.0;
                      });
     }
@@ -44,13 +63,14 @@ public:
                                  double step, double nextStep, int threads, const Integrator& scheme,
                                  const PeriodicBox& box) {
         return largestOfAll(grains, threads, scheme,
-                            [&, weight = fourOf(gravity)]<bool remembers, bool isHeld>(std::size_t k) {
-                                Motion motion = load(grains, k);
-                                accelerate<remembers, isHeld>(grains, store, weight, step, scheme, k, motion);
-                                storeAcceleration(grains, k, motion);
+                            [&, columns = Columns(grains), sums = Sums(store),
+                             weight = fourOf(gravity)]<bool remembers, bool isHeld>(std::size_t k) {
+                                Motion motion = load(columns, k);
+                                accelerate<remembers, isHeld>(columns, sums, weight, step, scheme, k, motion);
+                                storeAcceleration(columns, k, motion);
                                 const double shift2 =
-                                    move<remembers>(grains, nextStep, scheme, k, box, motion);
-                                storeVelocity(grains, k, motion);
+                                    move<remembers>(columns, nextStep, scheme, k, box, motion);
+                                storeVelocity(columns, k, motion);
                                 return shift2;
                             });
     }
@@ -75,13 +95,14 @@ public:
     static void start(Grains& grains, const Integrator& scheme) {
         grains.earlier.clear();
         if (!scheme.remembersEarlier()) return;
-        for (std::size_t k = 0; k < grains.size(); ++k) grains.earlier.push_back(lastOf(grains, k));
+        for (std::size_t k = 0; k < grains.size(); ++k) grains.earlier.push_back(lastOf(Columns(grains), k));
     }
 
 private:
     using Earlier = EarlierAcceleration;
+    using Sums = SumTaker<hasSpin, hasContactTorque>;
 
-    static Earlier lastOf(const Grains& grains, std::size_t k) {
+    static Earlier lastOf(const Columns& grains, std::size_t k) {
         Earlier last{.acceleration = grains.acceleration[k]};
         if constexpr (hasSpin) last.angularAcceleration = grains.rotation[k].angularAcceleration;
         return last;
@@ -136,7 +157,7 @@ private:
         Four velocity, acceleration;         // m/s, m/s^2
         Four spin{}, angularAcceleration{};  // rad/s, rad/s^2
     };
-    [[gnu::always_inline]] static Motion load(const Grains& grains, std::size_t k) {
+    [[gnu::always_inline]] static Motion load(const Columns& grains, std::size_t k) {
         Motion motion{loadFour(grains.translation[k].velocity), fourOf(grains.acceleration[k])};
         if constexpr (hasSpin) {
             motion.spin = loadFour(grains.rotation[k].spin);
@@ -145,12 +166,14 @@ private:
         return motion;
     }
     /// Only what a part of a step changes: not the numbers behind the vectors.
-    [[gnu::always_inline]] static void storeVelocity(Grains& grains, std::size_t k, const Motion& now) {
+    [[gnu::always_inline]] static void storeVelocity(const Columns& grains, std::size_t k,
+                                                     const Motion& now) {
         storeVector(grains.translation[k].velocity, now.velocity, loadFour(grains.translation[k].velocity));
         if constexpr (hasSpin)
             storeVector(grains.rotation[k].spin, now.spin, loadFour(grains.rotation[k].spin));
     }
-    [[gnu::always_inline]] static void storeAcceleration(Grains& grains, std::size_t k, const Motion& now) {
+    [[gnu::always_inline]] static void storeAcceleration(const Columns& grains, std::size_t k,
+                                                         const Motion& now) {
         grains.acceleration[k] = vectorOf(now.acceleration);
         if constexpr (hasSpin) {
             Vector<double>& angular = grains.rotation[k].angularAcceleration;
@@ -163,7 +186,7 @@ private:
 
     /// Moves a grain, and its motion to the start of the forces; returns the squared displacement (m^2).
     template <bool remembers>
-    [[gnu::always_inline]] static double move(Grains& grains, double step, const Integrator& scheme,
+    [[gnu::always_inline]] static double move(const Columns& grains, double step, const Integrator& scheme,
                                               std::size_t k, const PeriodicBox& box, Motion& motion) {
         const double position = scheme.position0 * step, velocity = scheme.velocity0 * step;
         TranslationRecord& grain = grains.translation[k];
@@ -189,11 +212,11 @@ private:
 
     /// @tparam isHeld some grains are held along some axes
     template <bool remembers, bool isHeld>
-    [[gnu::always_inline]] static void accelerate(Grains& grains, const ContactStore& store, Four gravity,
+    [[gnu::always_inline]] static void accelerate(const Columns& grains, const Sums& sums, Four gravity,
                                                   double step, const Integrator& scheme, std::size_t k,
                                                   Motion& motion) {
         const TranslationRecord& grain = grains.translation[k];
-        const auto sum = takeSum<hasSpin, hasContactTorque>(store, k, grain.radius);
+        const auto sum = sums.take(k, grain.radius);
         const Four weight = grain.inverseMass == 0 ? Four{} : gravity;
         Four acceleration = grain.inverseMass * sum.force + weight;
         if constexpr (isHeld) acceleration = freePart(acceleration, grains.held[k].freeAlong());
@@ -239,7 +262,7 @@ double TimeIntegration::begin(ParticleStore& grains, double step, int threads, c
 static void noteTaken(const ParticleStore& grains, const ContactStore& store) {
     if (!grains.bodies.empty() || !store.keepsTotals) return;
     for (std::size_t ghost = grains.ownSize(); ghost < grains.size(); ++ghost)
-        static_cast<void>(store.totals.take(ghost));
+        static_cast<void>(store.totals.taker().take(ghost));
     store.totals.allAreTaken();
 }
 void TimeIntegration::finish(ParticleStore& grains, const ContactStore& store, const Vector<double>& gravity,

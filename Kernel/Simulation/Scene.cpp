@@ -1,5 +1,6 @@
 #include "Kernel/Simulation/Scene.h"
 
+#include "Kernel/Base/Cache.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
@@ -12,6 +13,8 @@
 namespace pendular {
 
 Scene::Scene() : inside(std::make_unique<Inside>(*this)) {
+    // Other programs have some of it, too.
+    inside->contacts.setCache(lastCacheBytes() / (2 * startedTogether().count));
     // A grain that is removed takes the energy of its contacts with it; that of its motion the ledger sees.
     ParticleHandler::Inside::callBeforeRemoval(particleHandler, [this](std::uint32_t place) {
         ContactSystem& contacts = inside->contacts;

@@ -182,12 +182,12 @@ TEST(ForceTotals, areZeroWhereTheyBegin) {
         own.totals[130].torque = ForceTotal::Whole{4, 5, 6, 0};
         if (own.marks != nullptr) own.marks[130 / OwnTotals::grainsOfAMark] = 1;
     }
-    const ForceTotal sum = totals.take(130);
+    const ForceTotal sum = totals.taker().take(130);
     for (int c = 0; c < 3; ++c) {
         EXPECT_EQ(sum.force[c], 3 * (c + 1));
         EXPECT_EQ(sum.torque[c], 3 * (c + 4));
     }
-    EXPECT_EQ(totals.take(130).force[0], 0);
+    EXPECT_EQ(totals.taker().take(130).force[0], 0);
     // What has not been taken is gone at the next beginning, also with more grains and fewer threads.
     for (const int thread : {0, 1, 2}) {
         const OwnTotals own = totals.of(thread);
@@ -196,7 +196,7 @@ TEST(ForceTotals, areZeroWhereTheyBegin) {
     }
     totals.begin(1000, 2);
     for (std::size_t k = 0; k < 1000; ++k) {
-        const ForceTotal total = totals.take(k);
+        const ForceTotal total = totals.taker().take(k);
         ASSERT_TRUE(total.fits());
         ASSERT_EQ(total.force[0], 0);
     }

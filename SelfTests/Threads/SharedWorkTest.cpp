@@ -4,6 +4,8 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
+#include <cstdlib>
 #include <numeric>
 #include <set>
 #include <stdexcept>
@@ -186,6 +188,36 @@ TEST(Threads, thatOutnumberTheProcessorsDoNotCollapse) {
     for (int repeat = 0; repeat < 2000; ++repeat)
         inParts(20, 20, [&](int, std::size_t begin, std::size_t end) { sum += end - begin; });
     EXPECT_EQ(sum, 40000u);
+}
+
+// The last test: those that rest would not do their parts in others.
+// One that stops for much longer than its work is worth does not hold up the others again at once.
+TEST(Threads, doNotWaitAgainForOneThatHasStopped) {
+    unsetenv("PENDULAR_SHARE_SMALL_WORK");
+    if (sharesSmallWork()) GTEST_SKIP() << "PENDULAR_SHARE_SMALL_WORK was set when this process began";
+    if (processorCount() < 2) GTEST_SKIP() << "threads that share a processor do not rest";
+    constexpr std::size_t count = 1000, share = 10;
+    std::atomic<int> calls = 0;
+    // A rest that this thread has slept through leaves the next one twice as long.
+    for (int repeat = 0; repeat < 20 && calls != 1; ++repeat) {
+        std::atomic<bool> hasBegun = false;
+        inParts(2, 2, [&](int part, std::size_t, std::size_t) {
+            if (part == 1) {
+                hasBegun = true;
+                std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            } else {
+                for (int look = 0; look < 200 && !hasBegun; ++look)
+                    std::this_thread::sleep_for(std::chrono::microseconds(50));
+            }
+        });
+        calls = 0;
+        std::atomic<std::size_t> done = 0;
+        inShares(
+            count, 2, [&](int, std::size_t begin, std::size_t end) { ++calls, done += end - begin; }, 1,
+            share);
+        EXPECT_EQ(done, count);
+    }
+    EXPECT_EQ(calls, 1);  // all shares at once, by this thread
 }
 
 }  // namespace
