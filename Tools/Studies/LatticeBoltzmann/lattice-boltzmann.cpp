@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
@@ -24,6 +25,7 @@ struct Options {
     BridgeCase scene;
     double degrees = 0;
     double otherRadius = 1, otherWetting = 0.1, otherDegrees = 0;  // of the second sphere, of a pair
+    double drop = 0.9;
     double farthest = 1.5, speed = 0.005;
     std::vector<double> wettings{-0.1, -0.05, 0.0, 0.05, 0.075, 0.1, 0.125, 0.15};
     std::size_t mostSteps = 60000;
@@ -41,22 +43,35 @@ void printAngles(const Options& o) {
     fmt::print("wetting,angle_on_plane_deg,radius_of_sphere,angle_on_sphere_deg\n");
     for (const double wetting : o.wettings) {
         fmt::print("{},{:.2f},", wetting, angleOnPlane(wetting, 25, o.scene.fluid));
-        fmt::print("{},{:.2f}\n", o.scene.radius, angleOnSphere(wetting, o.scene.radius, o.scene.fluid));
+        fmt::print("{},{:.2f}\n", o.scene.radius,
+                   angleOnSphere(wetting, o.scene.radius, o.drop, o.scene.fluid));
         std::fflush(stdout);
     }
 }
 
 constexpr double ofSphere = 4 * std::numbers::pi / 3;
 
-/// Of the exact bridge at these angles and the measured volume, for R = gamma = 1.
-double exactForce(const std::array<double, 2>& radii, const std::array<double, 2>& degrees, double gap,
-                  double volume) {
-    if (std::isnan(degrees[0] + degrees[1])) return degrees[0];
+/// The exact bridge at these angles, for a mean radius and a tension of 1; none where there is none.
+std::optional<CapillaryBridge> exactBridge(const std::array<double, 2>& radii,
+                                           const std::array<double, 2>& degrees, double gap, double volume) {
+    if (std::isnan(degrees[0] + degrees[1])) return {};
     const auto body = [&](std::size_t k) {
         return WettedBody{radii[k], degrees[k] * std::numbers::pi / 180};
     };
-    const auto exact = solveBridge({body(0), body(1), volume * ofSphere}, gap);
+    return solveBridge({body(0), body(1), volume * ofSphere}, gap);
+}
+
+double exactForce(const std::array<double, 2>& radii, const std::array<double, 2>& degrees, double gap,
+                  double volume) {
+    const auto exact = exactBridge(radii, degrees, gap, volume);
     return exact ? exact->force() : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Where there is none: 0.
+double pressureOf(const std::array<double, 2>& radii, const std::array<double, 2>& degrees, double gap,
+                  double volume) {
+    const auto exact = exactBridge(radii, degrees, gap, volume);
+    return exact ? exact->pressure() : 0;
 }
 
 /// The angle in degrees at which the exact bridge has this waist, by halving: that of the bridge itself,
@@ -80,9 +95,11 @@ double angleOfWaist(double waist, double gap, double volume) {
 void printBridge(const Options& o) {
     checkValue("lattice-boltzmann", "--angle-deg", o.degrees, "degrees", {0, 180, true, false});
     const TensionLine line(o.scene.fluid);
-    TwoFluids fluids = beginBridge(o.scene);
-    const std::size_t steps = pour(fluids, o.scene, 0.005, o.mostSteps);
-    const BridgeState state = measure(fluids, o.scene, line);
+    BridgeCase scene = o.scene;
+    scene.pressure = pressureOf({1, 1}, {o.degrees, o.degrees}, scene.gap, scene.volume);
+    TwoFluids fluids = beginBridge(scene);
+    const std::size_t steps = pour(fluids, scene, 0.005, o.mostSteps);
+    const BridgeState state = measure(fluids, scene, line);
     const double fitted = angleOfWaist(state.waist, o.scene.gap, state.volume);
     fmt::print(
         "radius,gap,volume,wetting,angle_deg,force,thrust,exact_force,tension,liquid,other,capillary_number,"
@@ -104,6 +121,8 @@ PairCase pairOf(const Options& o) {
     const double mean = 0.5 * (pair.radius[0] + pair.radius[1]);
     pair.gap = o.scene.gap * mean;
     pair.volume = o.scene.volume * ofSphere * mean * mean * mean;
+    pair.pressure = pressureOf({pair.radius[0] / mean, pair.radius[1] / mean}, {o.degrees, o.otherDegrees},
+                               o.scene.gap, o.scene.volume);
     pair.fluid = o.scene.fluid;
     return pair;
 }
@@ -188,8 +207,8 @@ int main(int argc, char** argv) {
     app.add_option("--farthest", o.farthest, "gap to which a pair parts");
     app.add_option("--speed", o.speed, "of parting, nodes a step");
     app.add_option("--wettings", o.wettings, "of --angles")->delimiter(',');
+    app.add_option("--drop", o.drop, "of --angles on the sphere: its radius at the beginning, R");
     app.add_option("--coupling", o.scene.fluid.coupling, "G, with neighbours weighted 2 and 1");
-    app.add_option("--relaxation", o.scene.fluid.relaxation, "tau");
     app.add_option("--most-steps", o.mostSteps, "until the force is at rest");
     app.add_option("--threads", o.scene.fluid.threads, "share the lattice");
     if (const auto code = parseCommandLine(app, argc, argv)) return *code;

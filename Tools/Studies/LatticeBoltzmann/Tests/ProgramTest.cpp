@@ -16,7 +16,7 @@ const std::string program = folders::tools.string() + "/Studies/lattice-boltzman
 TEST(LatticeBoltzmannProgram, refusesWhatCannotBe) {
     expectOneSentence(run(program + " --bridge --radius 1"), "radius");
     expectOneSentence(run(program + " --bridge --gap -1"), "gap");
-    expectOneSentence(run(program + " --bridge --relaxation 0.4 --radius 4"), "relaxation");
+    expectOneSentence(run(program + " --bridge --coupling -1 --radius 4"), "coupling");
     expectOneSentence(run(program + " --bridge --angle-deg 200"), "--angle-deg");
     EXPECT_EQ(run(program).exitCode, 1);
 }
