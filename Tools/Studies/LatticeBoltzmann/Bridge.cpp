@@ -111,7 +111,7 @@ double angleOnPlane(double wetting, double dropRadius, const FluidSettings& sett
     return fit();
 }
 
-double angleOnSphere(double wetting, double radius, double drop, const FluidSettings& settings) {
+DropOnSphere dropOnSphere(double wetting, double radius, double drop, const FluidSettings& settings) {
     const int across = static_cast<int>(1.6 * radius), along = static_cast<int>(3.6 * radius);
     // The pole lies half way between nodes: the surface is there, and not up to half a node off.
     const Vector<double> centre{0, 0, std::round(1.9 * radius) - radius};
@@ -127,10 +127,12 @@ double angleOnSphere(double wetting, double radius, double drop, const FluidSett
         std::vector<Vector<double>> points = crossings(fluids, level);
         std::erase_if(points, [&](const Vector<double>& point) { return norm(point - centre) < radius + 6; });
         const FittedCircle circle = fitOnLine(points, centre, {0, 0, 1});
-        return degrees((radius * radius + circle.radius * circle.radius - circle.along * circle.along) /
-                       (2 * radius * circle.radius));
+        const double square = radius * radius, gap = circle.along, other = circle.radius;
+        return DropOnSphere{degrees((square + other * other - gap * gap) / (2 * radius * other)),
+                            degrees((square + gap * gap - other * other) / (2 * radius * gap))};
     };
-    settle(fluids, fit, 0.1, 1000, 20000);
+    settle(
+        fluids, [&] { return fit().angle; }, 0.1, 1000, 20000);
     return fit();
 }
 

@@ -43,8 +43,14 @@ std::size_t pour(TwoFluids& fluids, const BridgeCase& bridge, double tolerance, 
 /// circle through the mid level 6 nodes off the plane and farther.
 /// @param dropRadius of the half circle that it begins as, nodes
 [[nodiscard]] double angleOnPlane(double wetting, double dropRadius, const FluidSettings& settings);
-/// The same on the pole of a sphere of a radius, of a drop that begins as one of this radius (R) about the
-/// pole.
-[[nodiscard]] double angleOnSphere(double wetting, double radius, double drop, const FluidSettings& settings);
+/// A drop on the pole of a sphere, degrees.
+struct DropOnSphere {
+    double
+        angle;    // at which it meets the sphere: of the sphere through the mid level 6 nodes off and farther
+    double line;  // between the pole and the line of contact, from the centre of the sphere
+};
+/// @param drop radius of the drop that it begins as, about the pole, in R
+[[nodiscard]] DropOnSphere dropOnSphere(double wetting, double radius, double drop,
+                                        const FluidSettings& settings);
 
 }  // namespace pendular::lattice

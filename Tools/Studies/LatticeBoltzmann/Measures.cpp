@@ -141,7 +141,8 @@ static std::size_t addLiquidUntil(TwoFluids& fluids, const Probes& probes, const
         const double level = midLevel(fluids, probes);
         const double volume = volumeAbove(fluids, level), lack = rest.volume / volume - 1;
         within = std::abs(lack) < rest.tolerance ? within + 1 : 0;
-        if (within == 0) addLiquid(fluids, level, lack, volume);
+        if (within == 0)
+            addLiquid(fluids, level, std::clamp(lack, -0.1, 0.1), volume);  // more would be a shock
     }
     return done;
 }
