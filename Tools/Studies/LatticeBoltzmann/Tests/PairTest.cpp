@@ -61,7 +61,7 @@ TEST(Pair, ofEqualSpheresIsABridge) {
 
 // The middle of equal spheres that part is a mirror plane: each has half, and what breaks is the whole.
 TEST(Pair, equalSpheresPartWithHalfOfTheLiquidEach) {
-    const PairCase pair = smallPair(9);
+    const PairCase pair = smallPair(14);
     TwoFluids fluids = beginPair(pair);
     pour(fluids, pair, 0.02, 2000);
     std::size_t rows = 0;
