@@ -43,6 +43,8 @@ void printTensions(const FluidSettings& fluid) {
 }
 
 void printAngles(const Options& o) {
+    checkValue("lattice-boltzmann", "--radius", o.scene.radius, "nodes", {4, 200});
+    for (const double drop : o.drops) checkValue("lattice-boltzmann", "--drops", drop, "R", {0.1, 1.4});
     fmt::print("wetting,angle_on_plane_deg,radius_of_sphere,drop,angle_on_sphere_deg,line_deg\n");
     for (const double wetting : o.wettings) {
         const double onPlane = angleOnPlane(wetting, 25, o.scene.fluid);
@@ -174,6 +176,8 @@ void printParting(const Options& o) {
 /// One run in which liquid is added, at rest after each time. Beside it what separate exact bridges have:
 /// they meet on a sphere at a filling angle of 30 degrees.
 void printTrimer(const Options& o) {
+    for (const double volume : o.volumes)
+        checkValue("lattice-boltzmann", "--volumes", volume, "of a sphere", {0.001, 1});
     const TensionLine line(o.scene.fluid);
     TrimerCase trimer;
     trimer.radius = o.scene.radius, trimer.gap = o.scene.gap, trimer.wetting = o.scene.wetting;
