@@ -51,13 +51,14 @@ TwoFluids beginBridge(const BridgeCase& bridge) {
     const double width = cylinderBetween({r, r}, gap, bridge.volume * sphereVolume(r));
     const int across = static_cast<int>(std::ceil(1.6 * r)),
               along = static_cast<int>(std::ceil(0.5 * gap + 2.8 * r));
+    const Contents contents = contentsAt(0.047 * bridge.pressure / r);
     const int slip = start > 0 ? static_cast<int>(axis + std::ceil(2.2 * r)) : across;
     return {{{slip, across, along}, allMirrored},
             {sphere({axis, 0, 0.5 * gap + r}, r, bridge.wetting)},
             bridge.fluid,
             [=](const Vector<double>& place) {
                 const double distance = std::hypot(place.x - axis - start, place.y);
-                return phaseAt(place.z < 0.5 * gap + r ? distance - width : place.z);
+                return phaseAt(place.z < 0.5 * gap + r ? distance - width : place.z, contents);
             }};
 }
 
@@ -75,23 +76,21 @@ BridgeState measure(TwoFluids& fluids, const BridgeCase& bridge, const TensionLi
     state.offAxis = bridge.start > 0 ? (centreOfLiquid(fluids) - axisAt(bridge)) / bridge.radius : 0;
     const double unit = state.tension * bridge.radius, ofSphere = 0.5 * copies(bridge);
     state.speed = fluids.largestSpeed();
-    for (const bool isSecond : {false, true}) {
-        if (isSecond) fluids.step();
-        state.force -= 0.5 * ofSphere * fluids.solidForces()[0].sum().z / unit;
-        state.thrust -=
-            0.5 * ofSphere * (fluids.thrustThroughSide(2, false) - fluids.thrustThroughSide(2, true)) / unit;
-    }
-    state.capillaryNumber =
-        state.speed * (state.liquid * (2 * fluids.settings().relaxation - 1) / 6) / state.tension;
+    const auto both = [&] {
+        return Vector<double>{fluids.solidForces()[0].sum().z, fluids.thrustThroughSide(2, false),
+                              fluids.thrustThroughSide(2, true)};
+    };
+    const Vector<double> mean = meanOver(fluids, 500, both);
+    state.force = -ofSphere / unit * mean.x;
+    state.thrust = -ofSphere / unit * (mean.y - mean.z);
+    state.capillaryNumber = state.speed * state.liquid * viscosity / state.tension;
     return state;
 }
 
 std::size_t pour(TwoFluids& fluids, const BridgeCase& bridge, double tolerance, std::size_t limit) {
     const double wanted = bridge.volume * sphereVolume(bridge.radius) / copies(bridge);
-    const std::size_t done = addLiquidUntil(fluids, probesOf(fluids, bridge), wanted, tolerance, limit / 2);
-    const auto force = [&] { return fluids.solidForces()[0].sum().z; };
-    const double unit = 0.05 * bridge.radius / (0.5 * copies(bridge));  // about gamma R, of this part
-    return done + settle(fluids, force, 1e-5 * std::max(std::abs(force()), unit), 500, limit - done);
+    const auto force = [&] { return Vector<double>{0, 0, fluids.solidForces()[0].sum().z}; };
+    return bringToRest(fluids, probesOf(fluids, bridge), {wanted, tolerance, bridge.radius, force}, limit);
 }
 
 double angleOnPlane(double wetting, double dropRadius, const FluidSettings& settings) {
@@ -112,26 +111,28 @@ double angleOnPlane(double wetting, double dropRadius, const FluidSettings& sett
     return fit();
 }
 
-double angleOnSphere(double wetting, double radius, const FluidSettings& settings) {
+DropOnSphere dropOnSphere(double wetting, double radius, double drop, const FluidSettings& settings) {
     const int across = static_cast<int>(1.6 * radius), along = static_cast<int>(3.6 * radius);
     // The pole lies half way between nodes: the surface is there, and not up to half a node off.
     const Vector<double> centre{0, 0, std::round(1.9 * radius) - radius};
-    const double drop = 0.9 * radius;
-    // A drop whose centre is above the pole.
-    TwoFluids fluids({{across, across, along}, allMirrored}, {sphere(centre, radius, wetting)}, settings,
-                     [&](const Vector<double>& place) {
-                         return phaseAt(norm(place - centre - Vector<double>{0, 0, radius}) - drop);
-                     });
+    const Contents contents = contentsAt(0.047 * 2 / (drop * radius));
+    TwoFluids fluids(
+        {{across, across, along}, allMirrored}, {sphere(centre, radius, wetting)}, settings,
+        [&](const Vector<double>& place) {
+            return phaseAt(norm(place - centre - Vector<double>{0, 0, radius}) - drop * radius, contents);
+        });
     const auto fit = [&] {
         const int pole = static_cast<int>(centre.z + radius) + 2;
         const double level = midLevel(fluids, {{0, 0, pole}, lastNode(fluids)});
         std::vector<Vector<double>> points = crossings(fluids, level);
         std::erase_if(points, [&](const Vector<double>& point) { return norm(point - centre) < radius + 6; });
         const FittedCircle circle = fitOnLine(points, centre, {0, 0, 1});
-        return degrees((radius * radius + circle.radius * circle.radius - circle.along * circle.along) /
-                       (2 * radius * circle.radius));
+        const double square = radius * radius, gap = circle.along, other = circle.radius;
+        return DropOnSphere{degrees((square + other * other - gap * gap) / (2 * radius * other)),
+                            degrees((square + gap * gap - other * other) / (2 * radius * gap))};
     };
-    settle(fluids, fit, 0.1, 1000, 20000);
+    settle(
+        fluids, [&] { return fit().angle; }, 0.1, 1000, 20000);
     return fit();
 }
 

@@ -12,6 +12,7 @@ struct BridgeCase {
     double gap = 0.625;     // S/R
     double volume = 0.133;  // V/(4 pi R^3/3): where it begins
     double wetting = 0.1;   // Delta rho
+    double pressure = 0;    // gamma/R, about what the liquid has: its densities begin so
     double start = 0;       // off the axis along x, where the liquid begins, in R; 0: an eighth is computed
     FluidSettings fluid;
 };
@@ -31,21 +32,25 @@ struct BridgeState {
     double capillaryNumber;
 };
 
-/// Forces are the means of this step and the next one, which is made: a lattice has modes that change their
-/// sign from node to node and from step to step, and die out slowly (the force of one step is up to 7 % off
-/// at R = 8).
+/// Forces are means over 500 steps, which are made: that of one step is up to 7 % off at R = 8.
 /// @param line gamma over the density
 [[nodiscard]] BridgeState measure(TwoFluids& fluids, const BridgeCase& bridge, const TensionLine& line);
 
-/// Adds liquid until the measured volume is the wanted one to within a share, then lets the bridge come to
-/// rest: until the force changes by 1e-5 in 500 steps. Returns the steps done.
+/// Brings the bridge to rest with its volume. Returns the steps done.
 std::size_t pour(TwoFluids& fluids, const BridgeCase& bridge, double tolerance, std::size_t limit);
 
 /// The angle in degrees at which a drop, without change along z, meets a plane of this Delta rho: of the
 /// circle through the mid level 6 nodes off the plane and farther.
 /// @param dropRadius of the half circle that it begins as, nodes
 [[nodiscard]] double angleOnPlane(double wetting, double dropRadius, const FluidSettings& settings);
-/// The same on the pole of a sphere of a radius.
-[[nodiscard]] double angleOnSphere(double wetting, double radius, const FluidSettings& settings);
+/// A drop on the pole of a sphere, degrees.
+struct DropOnSphere {
+    double
+        angle;    // at which it meets the sphere: of the sphere through the mid level 6 nodes off and farther
+    double line;  // between the pole and the line of contact, from the centre of the sphere
+};
+/// @param drop radius of the drop that it begins as, about the pole, in R
+[[nodiscard]] DropOnSphere dropOnSphere(double wetting, double radius, double drop,
+                                        const FluidSettings& settings);
 
 }  // namespace pendular::lattice

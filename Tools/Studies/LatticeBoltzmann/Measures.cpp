@@ -5,13 +5,23 @@
 #include <cmath>
 #include <numbers>
 
+#include "Kernel/Species/Field.h"
+
 namespace pendular::lattice {
 
+Densities phaseAt(double distance, const Contents& contents) {
+    const double share = 0.5 - 0.5 * std::tanh(distance / 1.3);  // about as wide as the interface at G = 0.1
+    const auto& [liquid, other] = contents;
+    return {other[0] + share * (liquid[0] - other[0]), other[1] + share * (liquid[1] - other[1])};
+}
+
 Densities phaseAt(double distance, const Phases& phases) {
-    const double mean = 0.5 * (phases.majority + phases.minority),
-                 half = 0.5 * (phases.majority - phases.minority);
-    const double profile = std::tanh(distance / 1.3);  // about as wide as the interface at G = 0.1
-    return {mean - half * profile, mean + half * profile};
+    return phaseAt(distance,
+                   Contents{{phases.majority, phases.minority}, {phases.minority, phases.majority}});
+}
+
+Contents contentsAt(double pressure) {
+    return {{0.70 + 5.7 * pressure, 0.0366 - 0.63 * pressure}, {0.0366 + 0.47 * pressure, 0.70}};
 }
 
 FlatInterface flatInterface(const FluidSettings& settings, const Phases& phases) {
@@ -120,16 +130,34 @@ static void addLiquid(TwoFluids& fluids, double level, double share, double volu
     });
 }
 
-std::size_t addLiquidUntil(TwoFluids& fluids, const Probes& probes, double wanted, double tolerance,
-                           std::size_t limit) {
-    constexpr std::size_t window = 500;
+/// How many steps are made between two looks at a run.
+constexpr std::size_t window = 500;
+
+static std::size_t addLiquidUntil(TwoFluids& fluids, const Probes& probes, const Rest& rest,
+                                  std::size_t limit) {
     std::size_t done = 0;
     for (int within = 0; within < 4 && done < limit; done += window) {
         fluids.steps(window);
         const double level = midLevel(fluids, probes);
-        const double volume = volumeAbove(fluids, level), lack = wanted / volume - 1;
-        within = std::abs(lack) < tolerance ? within + 1 : 0;
-        if (within == 0) addLiquid(fluids, level, lack, volume);
+        const double volume = volumeAbove(fluids, level), lack = rest.volume / volume - 1;
+        within = std::abs(lack) < rest.tolerance ? within + 1 : 0;
+        if (within == 0)
+            addLiquid(fluids, level, std::clamp(lack, -0.1, 0.1), volume);  // more would be a shock
+    }
+    return done;
+}
+
+std::size_t bringToRest(TwoFluids& fluids, const Probes& probes, const Rest& rest, std::size_t limit) {
+    fluids.setFriction(0.1 / rest.radius);
+    std::size_t done = addLiquidUntil(fluids, probes, rest, limit / 2);
+    fluids.setFriction(0);
+    const double unit = 0.05 * rest.radius / 4;  // about gamma R, of the part that is computed
+    Vector<double> before{infinity, 0, 0};
+    while (done < limit) {
+        const Vector<double> now = meanOver(fluids, window, rest.force);
+        done += window;
+        if (norm(now - before) < 2e-4 * std::max(norm(now), unit)) break;
+        before = now;
     }
     return done;
 }
@@ -154,6 +182,16 @@ double cylinderBetween(const std::array<double, 2>& radii, double gap, double vo
         (volumeWithin(middle) < volume ? low : high) = middle;
     }
     return low;
+}
+
+Vector<double> meanOver(TwoFluids& fluids, std::size_t steps, const std::function<Vector<double>()>& value) {
+    constexpr std::size_t stride = 5;
+    Vector<double> sum{0, 0, 0};
+    for (std::size_t k = 0; k < steps / stride; ++k) {
+        fluids.steps(stride);
+        sum += value();
+    }
+    return static_cast<double>(stride) / static_cast<double>(steps) * sum;
 }
 
 std::size_t settle(TwoFluids& fluids, const std::function<double()>& value, double tolerance,

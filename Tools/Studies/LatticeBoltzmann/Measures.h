@@ -17,6 +17,16 @@ struct Phases {
 /// begins.
 [[nodiscard]] Densities phaseAt(double distance, const Phases& phases = {});
 
+/// Densities of the two components in the liquid, and in the fluid around it.
+struct Contents {
+    Densities liquid, other;
+};
+/// Those at rest where the liquid has more pressure, by so much in lattice units: straight lines through what
+/// drops of R = 10 to 40 have at G = 0.1. From densities that are not so, liquid condenses or dissolves for
+/// some R^2/viscosity steps.
+[[nodiscard]] Contents contentsAt(double pressure);
+[[nodiscard]] Densities phaseAt(double distance, const Contents& contents);
+
 /// A flat interface at rest.
 struct FlatInterface {
     double majority, minority;  // densities
@@ -29,7 +39,7 @@ struct FlatInterface {
 [[nodiscard]] FlatInterface flatInterface(const FluidSettings& settings, const Phases& phases = {});
 
 /// gamma at a density of the component that prevails: the straight line through two flat interfaces, at 0.721
-/// and 0.756 for G = 0.1 and tau = 1, which are about those of drops and bridges.
+/// and 0.756 for G = 0.1, which are about those of drops and bridges.
 class TensionLine {
 public:
     explicit TensionLine(const FluidSettings& settings);
@@ -65,15 +75,27 @@ struct Probes {
 };
 /// The mean of the densities of the first component at both: where the surface is.
 [[nodiscard]] double midLevel(const TwoFluids& fluids, const Probes& probes);
-/// Adds liquid, and takes as much of the other fluid, until the volume inside the mid level is the wanted one
-/// (nodes^3, in the box) to within a share, four times in a row. Returns the steps done.
-std::size_t addLiquidUntil(TwoFluids& fluids, const Probes& probes, double wanted, double tolerance,
-                           std::size_t limit);
+/// What a run brings to rest: this volume of liquid (nodes^3, in the box) to within a share, and a force on
+/// the solid of a radius.
+struct Rest {
+    double volume, tolerance, radius;
+    std::function<Vector<double>()> force;  // lattice units
+};
+/// Adds liquid, and takes as much of the other fluid, until the volume inside the mid level is the wanted
+/// one, four times in a row. This has friction, without which the sound of the beginning takes R^2 steps to
+/// die out. Then makes steps until the mean force over 500 of them changes by less than 2e-4, or to the
+/// limit. Returns the steps done.
+std::size_t bringToRest(TwoFluids& fluids, const Probes& probes, const Rest& rest, std::size_t limit);
 /// The last node of the box along all axes.
 [[nodiscard]] Node lastNode(const TwoFluids& fluids);
 /// The radius (nodes) of the cylinder that, between two spheres on its axis, has a volume (nodes^3).
 /// @param radii, gap nodes
 [[nodiscard]] double cylinderBetween(const std::array<double, 2>& radii, double gap, double volume);
+
+/// The mean of `value` over steps that are made: of each fifth one. A lattice has modes that change their
+/// sign from step to step, and sound that runs to and fro in the box; both die out slowly.
+[[nodiscard]] Vector<double> meanOver(TwoFluids& fluids, std::size_t steps,
+                                      const std::function<Vector<double>()>& value);
 
 /// Makes steps until `value` changes by less than `tolerance` over `window` steps, or to the limit. Returns
 /// the steps done.

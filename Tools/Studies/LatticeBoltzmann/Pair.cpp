@@ -54,6 +54,8 @@ TwoFluids beginPair(const PairCase& pair) {
     checkValue("pair", "volume", pair.volume, "nodes^3", {10, 1e8});
     const double width = cylinderBetween(pair.radius, pair.gap, pair.volume);
     const auto [low, high] = centres(pair);
+    const double mean = 0.5 * (pair.radius[0] + pair.radius[1]);
+    const Contents contents = contentsAt(0.047 * pair.pressure / mean);
     const int across = static_cast<int>(std::ceil(std::max(pair.radius[0], pair.radius[1]) + margin)),
               along = static_cast<int>(std::ceil(high + pair.radius[1] + 0.5 * pair.room + margin));
     return {{{across, across, along}, {Sides::Mirrored, Sides::Mirrored, Sides::Mirrored}},
@@ -61,16 +63,14 @@ TwoFluids beginPair(const PairCase& pair) {
             pair.fluid,
             [=](const Vector<double>& place) {
                 const bool isBetween = place.z > low && place.z < high;
-                return phaseAt(isBetween ? std::hypot(place.x, place.y) - width : 10);
+                return phaseAt(isBetween ? std::hypot(place.x, place.y) - width : 10, contents);
             }};
 }
 
 std::size_t pour(TwoFluids& fluids, const PairCase& pair, double tolerance, std::size_t limit) {
-    const std::size_t done =
-        addLiquidUntil(fluids, probesOf(fluids, pair), 0.25 * pair.volume, tolerance, limit / 2);
-    const auto force = [&] { return fluids.solidForces()[0].sum().z; };
-    const double unit = 0.05 * pair.radius[0] / 4;
-    return done + settle(fluids, force, 1e-5 * std::max(std::abs(force()), unit), 500, limit - done);
+    const auto force = [&] { return Vector<double>{0, 0, fluids.solidForces()[0].sum().z}; };
+    return bringToRest(fluids, probesOf(fluids, pair), {0.25 * pair.volume, tolerance, pair.radius[0], force},
+                       limit);
 }
 
 PairState measure(TwoFluids& fluids, const PairCase& pair, const TensionLine& line) {
@@ -79,11 +79,11 @@ PairState measure(TwoFluids& fluids, const PairCase& pair, const TensionLine& li
     state.liquid = fluids.densityAt(probes.liquid)[0], state.other = fluids.densityAt(probes.other)[1];
     state.tension = line.at(0.5 * (state.liquid + state.other));
     state.volume = 4 * volumeAbove(fluids, midLevel(fluids, probes));
-    for (const bool isSecond : {false, true}) {
-        if (isSecond) fluids.step();
+    const Vector<double> mean = meanOver(fluids, 500, [&] {
         const std::vector<SolidForce> forces = fluids.solidForces();
-        for (std::size_t k = 0; k < 2; ++k) state.force[k] += (k == 0 ? 2 : -2) * forces[k].sum().z;
-    }
+        return Vector<double>{forces[0].sum().z, forces[1].sum().z, 0};
+    });
+    state.force = {4 * mean.x, -4 * mean.y};
     return state;
 }
 

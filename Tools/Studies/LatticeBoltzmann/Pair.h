@@ -11,14 +11,15 @@ struct PairCase {
     std::array<double, 2> wetting{0.1, 0.1};  // Delta rho
     double gap = 12;                          // nodes
     double volume = 4500;                     // nodes^3
-    double room = 0;                          // nodes, by which the gap is to grow
+    double pressure = 0;  // gamma over the mean radius, about what the liquid has: its densities begin so
+    double room = 0;      // nodes, by which the gap is to grow
     FluidSettings fluid;
 };
 
 /// In lattice units, of the whole bridge; forces attract.
 struct PairState {
     double tension, volume;
-    std::array<double, 2> force;  // on each sphere, means of this step and the next one, which is made
+    std::array<double, 2> force;  // on each sphere, means over 500 steps, which are made
     double liquid, other;         // densities of the component that prevails
 };
 

@@ -4,23 +4,47 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Math/ElementaryFunctions.h"
+#include "Kernel/Math/Pack.h"
 #include "Kernel/Species/Field.h"
 
 namespace pendular::lattice {
 
 namespace {
 
-/// Short gaps in a span, of ghosts or solid, are computed with it: nobody reads what comes out there.
-constexpr std::size_t longestGap = 24;
-/// Spans worth a thread.
-constexpr std::size_t spansWorth = 4;
+/// Short gaps in a span, of ghosts or solid, are computed with it.
+constexpr std::size_t longestGap = 8;
+constexpr std::size_t longestSpan = 256;
+/// Spans and ghosts worth a thread.
+constexpr std::size_t spansWorth = 4, ghostsWorth = 4096;
+constexpr auto lanes = static_cast<std::size_t>(Pack::lanes);
 
-double effectiveMass(double density) { return 1.0 - exponential2(-std::numbers::log2e * density); }
+template <Number T>
+[[gnu::always_inline]] inline T effectiveMass(const T& density) {
+    return 1.0 - exponential2(-std::numbers::log2e * density);
+}
+
+/// Eight numbers from any address.
+[[gnu::always_inline]] inline Pack packAt(const double* address) {
+    std::array<double, lanes> values;
+    std::memcpy(values.data(), address, sizeof values);
+    return Pack::fromLanes(values);
+}
+[[gnu::always_inline]] inline void put(const Pack& pack, double* address) {
+    const std::array<double, lanes> values = pack.toLanes();
+    std::memcpy(address, values.data(), sizeof values);
+}
+
+/// The equilibrium of second order over its weight. @param base density (1 - 1.5 velocity^2)
+template <Number T>
+[[gnu::always_inline]] inline T equilibrium(const T& density, const T& base, const T& along) {
+    return fma(density * along, fma(4.5, along, T(3.0)), base);
+}
 
 }  // namespace
 
@@ -28,84 +52,100 @@ TwoFluids::TwoFluids(const Box& box, std::vector<Solid> given, const FluidSettin
                      const std::function<Densities(const Vector<double>&)>& begin)
     : grid_(box), solids(std::move(given)), settings_(settings) {
     checkValue("lattice", "coupling", settings.coupling, "", notNegative);
-    checkValue("lattice", "relaxation", settings.relaxation, "steps", {0.5, infinity, false, false});
     for (Component& component : components) {
-        for (std::size_t i = 0; i < directions; ++i)
-            component.moving.insert(component.moving.end(), grid_.size(), weight(i));
-        if (settings.relaxation != 1) component.arrived = component.moving;
-        component.density.assign(grid_.size(), 1);
-        component.psi.assign(grid_.size(), 0);
-        component.momentum.fill(component.psi);
+        const Field zeros(grid_.size() + lanes, 0);  // the last pack may reach beyond the last node
+        component.density = component.psi = component.base = component.nextDensity = zeros;
+        component.velocity.fill(zeros), component.nextMomentum.fill(zeros);
     }
     layOut();
     grid_.forEachNode([&](const Node& node) {
         if (solidAt(node) < 0) setEquilibrium(grid_.at(node), begin(placeOf(node)));
     });
-    findForces();
+    findPsi();
+    fillGhosts();
 }
 
-/// To first order in the velocity.
 void TwoFluids::setEquilibrium(std::size_t site, const Densities& rho, const Vector<double>& velocity) {
     for (std::size_t c = 0; c < 2; ++c) {
-        components[c].density[site] = rho[c];
-        for (std::size_t i = 0; i < directions; ++i)
-            components[c].moving[slot(i, site)] =
-                weight(i) * rho[c] * (1 + 3 * dot(vectorOf(velocities[i]), velocity));
+        Component& own = components[c];
+        own.density[site] = rho[c];
+        own.base[site] = rho[c] * (1 - 1.5 * squaredNorm(velocity));
+        own.velocity[0][site] = velocity.x, own.velocity[1][site] = velocity.y,
+        own.velocity[2][site] = velocity.z;
     }
 }
 
-/// Which nodes are solid; rows of fluid; what is copied where in each step.
-void TwoFluids::layOut() {
-    slots.clear(), ghosts.clear(), spans.clear(), shells.clear(), shellNeighbours.clear();
-    links.clear(), movingLinks.clear();
+/// Which nodes are solid, also beyond the sides, and what lies beyond them.
+void TwoFluids::findSolids() {
     solidOf.assign(grid_.size(), -1);
+    ghosts.clear();
     grid_.forEachNode([&](const Node& node) {
         for (std::size_t k = 0; k < solids.size(); ++k)
             if (solids[k].contains(placeOf(node))) solidOf[grid_.at(node)] = static_cast<int>(k);
     });
     grid_.forEachNode(
         [&](const Node& node) {
-            const std::size_t site = grid_.at(node), real = grid_.at(grid_.seenAt(node).node);
+            const Seen seen = grid_.seenAt(node);
+            const std::size_t site = grid_.at(node), real = grid_.at(seen.node);
             if (site == real) return;
             solidOf[site] = solidOf[real];
-            ghosts.push_back({site, real});
+            ghosts.push_back({site, real, {}});
+            for (std::size_t k = 0; k < 3; ++k) ghosts.back().sign[k] = seen.isMirrored[k] ? -1 : 1;
         },
         1);
+}
+
+/// Rows of fluid, shells of solids, and what is thrown back where.
+void TwoFluids::layOut() {
+    findSolids();
+    spans.clear(), holes.clear(), shells.clear(), shellNeighbours.clear(), links.clear();
     grid_.forEachNode([&](const Node& node) {
         if (solidAt(node) >= 0) {
             addShell(node);
             return;
         }
-        const std::size_t site = grid_.at(node);
-        const std::size_t reach = spans.empty() ? 0 : site + 1 - spans.back().begin;
-        if (!spans.empty() && reach <= longestSpan && reach - spans.back().count <= longestGap)
-            spans.back().count = reach;
-        else spans.push_back({site, 1});
+        addToSpans(node);
         addLinks(node);
     });
+    std::vector<bool> isFluid(grid_.size() + lanes, false);
+    grid_.forEachNode([&](const Node& node) { isFluid[grid_.at(node)] = solidAt(node) < 0; });
+    for (Span& span : spans) {
+        span.firstHole = holes.size();
+        for (std::size_t site = span.begin; site < span.begin + span.count; ++site)
+            if (!isFluid[site]) holes.push_back(site);
+        span.holes = holes.size() - span.firstHole;
+    }
+    for (std::size_t site = 0; site < isFluid.size(); ++site) {
+        if (isFluid[site]) continue;
+        setEquilibrium(site, {0, 0});
+        for (Component& own : components) {
+            own.nextDensity[site] = 0;
+            for (Field& momentum : own.nextMomentum) momentum[site] = 0;
+        }
+    }
 }
 
-/// A population comes to a node from the node behind it. Where that is a ghost or solid, its slot there is
-/// filled before it is read: with what the real node sends, or with what the node itself has sent to the
-/// solid.
-void TwoFluids::addLinks(const Node& node) {
+void TwoFluids::addToSpans(const Node& node) {
     const std::size_t site = grid_.at(node);
-    for (std::size_t i = 1; i < directions; ++i) {
-        const Node behind = neighbour(node, opposite(i));
-        const Seen seen = grid_.seenAt(behind);
-        const int solid = solidAt(behind);
-        if (solid < 0) {
-            if (seen.node != behind)
-                slots.push_back(
-                    {slot(i, grid_.at(behind)), slot(mirrored(i, seen.isMirrored), grid_.at(seen.node))});
-            continue;
+    if (!spans.empty()) {
+        Span& last = spans.back();
+        const std::size_t reach = (site - last.begin) / lanes * lanes + lanes;
+        const std::size_t gap = site - std::min(site, last.begin + last.count);
+        if (reach <= std::max(last.count, longestSpan) && gap <= longestGap) {
+            last.count = std::max(last.count, reach);
+            return;
         }
-        const std::size_t outgoing = slot(opposite(i), site);
+    }
+    spans.push_back({site, lanes, 0, 0, links.size(), 0});
+}
+
+void TwoFluids::addLinks(const Node& node) {
+    for (std::size_t i = 1; i < directions; ++i) {
+        const int solid = solidAt(neighbour(node, opposite(i)));
+        if (solid < 0) continue;
         const Vector<double>& u = solids[static_cast<std::size_t>(solid)].velocity;
-        const double factor = 6 * weight(i) * dot(vectorOf(velocities[i]), u);
-        slots.push_back({slot(i, grid_.at(behind)), outgoing});
-        if (factor != 0) movingLinks.push_back({slot(i, grid_.at(behind)), site, factor});
-        links.push_back({site, outgoing, solid, factor});
+        links.push_back({grid_.at(node), i, solid, 6 * weight(i) * dot(vectorOf(velocities[i]), u)});
+        ++spans.back().links;
     }
 }
 
@@ -121,149 +161,146 @@ void TwoFluids::addShell(const Node& node) {
     if (shell.neighbours > 0) shells.push_back(shell);
 }
 
-void TwoFluids::fillSlots() {
-    for (Component& component : components) {
-        inParts(
-            slots.size(), settings_.threads,
-            [&](int, std::size_t begin, std::size_t end) {
-                for (std::size_t k = begin; k < end; ++k)
-                    component.moving[slots[k].to] = component.moving[slots[k].from];
-            },
-            4096);
-        for (const MovingLink& link : movingLinks)
-            component.moving[link.slot] += link.factor * component.density[link.site];
-    }
-}
-
-void TwoFluids::stream() {
+void TwoFluids::forEachSpan(const std::function<void(const Span&)>& function) const {
     inParts(
         spans.size(), settings_.threads,
         [&](int, std::size_t begin, std::size_t end) {
-            for (std::size_t k = begin; k < end; ++k) streamSpan(spans[k]);
+            for (std::size_t k = begin; k < end; ++k) function(spans[k]);
         },
         spansWorth);
 }
 
-void TwoFluids::streamSpan(const Span& span) {
-    for (Component& component : components) {
-        double* const rho = component.density.data() + span.begin;
-        std::array<double*, 3> momentum{};
-        for (std::size_t k = 0; k < 3; ++k) {
-            momentum[k] = component.momentum[k].data() + span.begin;
-            std::fill_n(momentum[k], span.count, 0.0);
+/// What arrives at each node: its density and momentum.
+void TwoFluids::stream(const Span& span) {
+    std::array<std::ptrdiff_t, directions> behind;
+    for (std::size_t i = 0; i < directions; ++i) behind[i] = -grid_.offset(i);
+    for (Component& own : components) {
+        for (std::size_t s = span.begin; s < span.begin + span.count; s += lanes) {
+            Pack axes(0.0), diagonals(0.0);
+            std::array<Pack, 3> ofAxes{axes, axes, axes}, ofDiagonals = ofAxes;
+            forEachDirection([&](auto direction) {
+                constexpr std::size_t i = direction;
+                const auto from = static_cast<std::ptrdiff_t>(s) + behind[i];
+                const auto load = [&](const Field& field) { return packAt(field.data() + from); };
+                const Pack u =
+                    along<i>(std::array{load(own.velocity[0]), load(own.velocity[1]), load(own.velocity[2])});
+                const Pack f = equilibrium(load(own.density), load(own.base), u);
+                (i < 7 ? axes : diagonals) = (i < 7 ? axes : diagonals) + f;
+                std::array<Pack, 3>& momentum = i < 7 ? ofAxes : ofDiagonals;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    if (velocities[i][k] > 0) momentum[k] = momentum[k] + f;
+                    if (velocities[i][k] < 0) momentum[k] = momentum[k] - f;
+                }
+            });
+            const Pack density =
+                weight(0) * packAt(own.base.data() + s) + weight(1) * axes + weight(7) * diagonals;
+            put(density, own.nextDensity.data() + s);
+            for (std::size_t k = 0; k < 3; ++k)
+                put(weight(1) * ofAxes[k] + weight(7) * ofDiagonals[k], own.nextMomentum[k].data() + s);
         }
-        std::fill_n(rho, span.count, 0.0);
-        for (std::size_t i = 0; i < directions; ++i) {
-            const double* const from = component.moving.data() + slot(i, span.begin) - grid_.offset(i);
-            for (std::size_t s = 0; s < span.count; ++s) rho[s] += from[s];
-            for (std::size_t k = 0; k < 3; ++k) {
-                const double c = velocities[i][k];
-                double* const sum = momentum[k];
-                if (c != 0)
-                    for (std::size_t s = 0; s < span.count; ++s) sum[s] += c * from[s];
-            }
-            if (!component.arrived.empty())
-                std::copy_n(from, span.count, component.arrived.data() + slot(i, span.begin));
-        }
+        throwBack(own, span);
     }
 }
 
-/// psi of all nodes that a force is asked of: fluid, shells, ghosts.
-void TwoFluids::findForces() {
-    for (Component& component : components) {
-        inParts(
-            spans.size(), settings_.threads,
-            [&](int, std::size_t begin, std::size_t end) {
-                for (std::size_t k = begin; k < end; ++k)
-                    for (std::size_t s = spans[k].begin; s < spans[k].begin + spans[k].count; ++s)
-                        component.psi[s] = effectiveMass(component.density[s]);
-            },
-            spansWorth);
-        const double sign = &component == components.data() ? 1 : -1;
+double TwoFluids::population(const Component& own, std::size_t direction, std::size_t site) const {
+    double speed = 0;
+    for (std::size_t k = 0; k < 3; ++k) speed += velocities[direction][k] * own.velocity[k][site];
+    return weight(direction) * equilibrium(own.density[site], own.base[site], speed);
+}
+
+void TwoFluids::throwBack(Component& own, const Span& span) const {
+    for (std::size_t k = span.firstLink; k < span.firstLink + span.links; ++k) {
+        const Link& link = links[k];
+        const double thrown =
+            population(own, opposite(link.direction), link.site) + link.factor * own.density[link.site];
+        own.nextDensity[link.site] += thrown;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            own.nextMomentum[axis][link.site] += velocities[link.direction][axis] * thrown;
+    }
+}
+
+/// Of all nodes that a force is asked of: fluid, shells, ghosts.
+void TwoFluids::findPsi() {
+    forEachSpan([&](const Span& span) {
+        for (Component& own : components)
+            for (std::size_t s = span.begin; s < span.begin + span.count; s += lanes)
+                put(effectiveMass(packAt(own.density.data() + s)), own.psi.data() + s);
+    });
+    for (Component& own : components) {
+        const double sign = &own == components.data() ? 1 : -1;
         for (const Shell& shell : shells) {
             double sum = 0;
             for (std::size_t k = 0; k < shell.neighbours; ++k)
-                sum += component.density[shellNeighbours[shell.firstNeighbour + k]];
+                sum += own.density[shellNeighbours[shell.firstNeighbour + k]];
             const double mean = sum / static_cast<double>(shell.neighbours);
-            component.density[shell.site] = std::max(0.0, mean + sign * shell.wetting);
-            component.psi[shell.site] = effectiveMass(component.density[shell.site]);
+            own.psi[shell.site] = effectiveMass(std::max(0.0, mean + sign * shell.wetting));
         }
-        for (const Copy& ghost : ghosts) component.psi[ghost.to] = component.psi[ghost.from];
+        for (const Ghost& ghost : ghosts) own.psi[ghost.to] = own.psi[ghost.from];
     }
-}
-
-void TwoFluids::collide() {
-    inParts(
-        spans.size(), settings_.threads,
-        [&](int, std::size_t begin, std::size_t end) {
-            for (std::size_t k = begin; k < end; ++k) collideSpan(spans[k]);
-        },
-        spansWorth);
 }
 
 /// u' of the two components, then for each the velocity of its equilibrium.
-void TwoFluids::collideSpan(const Span& span) {
-    const std::size_t n = span.count, begin = span.begin;
-    std::array<Row, 3> common, pull, velocity;
-    const auto& [first, second] = components;
-    for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t s = 0; s < n; ++s)
-            common[k][s] = (first.momentum[k][begin + s] + second.momentum[k][begin + s]) /
-                           (first.density[begin + s] + second.density[begin + s]);
-    for (std::size_t c = 0; c < 2; ++c) {
-        sumNeighbours(components[1 - c], span, pull);
-        const double* const rho = components[c].density.data() + begin;
-        const double* const psi = components[c].psi.data() + begin;
-        const double factor = settings_.relaxation * settings_.coupling;
+void TwoFluids::collide(const Span& span) {
+    std::array<std::ptrdiff_t, directions> ahead;
+    for (std::size_t i = 0; i < directions; ++i) ahead[i] = grid_.offset(i);
+    for (std::size_t s = span.begin; s < span.begin + span.count; s += lanes) {
+        auto& [first, second] = components;
+        const std::array density{packAt(first.density.data() + s), packAt(second.density.data() + s)};
+        std::array<std::array<Pack, 3>, 2> pull;  // the sum of g psi c of the neighbours
+        for (std::size_t c = 0; c < 2; ++c) {
+            pull[c].fill(Pack(0.0));
+            forEachDirection([&](auto direction) {
+                constexpr std::size_t i = direction;
+                const Pack psi = packAt(components[c].psi.data() + static_cast<std::ptrdiff_t>(s) + ahead[i]);
+                for (std::size_t k = 0; k < 3; ++k)
+                    if (velocities[i][k] != 0)
+                        pull[c][k] = fma(degeneracy(i) * velocities[i][k], psi, pull[c][k]);
+            });
+        }
+        const Pack share = (1.0 - settings_.friction) / (density[0] + density[1]);
+        std::array<Pack, 3> common;
         for (std::size_t k = 0; k < 3; ++k)
-            for (std::size_t s = 0; s < n; ++s)
-                velocity[k][s] = common[k][s] - factor * psi[s] / rho[s] * pull[k][s];
-        relax(components[c], span, velocity);
+            common[k] =
+                (packAt(first.velocity[k].data() + s) + packAt(second.velocity[k].data() + s)) * share;
+        for (std::size_t c = 0; c < 2; ++c) {
+            Component& own = components[c];
+            const Pack factor = settings_.coupling * packAt(own.psi.data() + s) / density[c];
+            Pack squares(0.0);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Pack u = common[k] - factor * pull[1 - c][k];
+                squares = fma(u, u, squares);
+                put(u, own.velocity[k].data() + s);
+            }
+            put(density[c] * (1.0 - 1.5 * squares), own.base.data() + s);
+        }
     }
+    for (std::size_t k = span.firstHole; k < span.firstHole + span.holes; ++k)
+        setEquilibrium(holes[k], {0, 0});
 }
 
-/// The sum of g psi c over the neighbours.
-void TwoFluids::sumNeighbours(const Component& other, const Span& span, std::array<Row, 3>& sums) const {
-    for (Row& sum : sums) std::fill_n(sum.begin(), span.count, 0.0);
-    for (std::size_t i = 1; i < directions; ++i) {
-        const double* const psi = other.psi.data() + span.begin + grid_.offset(i);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double g = degeneracy(i) * velocities[i][k];
-            if (g != 0)
-                for (std::size_t s = 0; s < span.count; ++s) sums[k][s] += g * psi[s];
-        }
-    }
-}
-
-/// Populations go 1/tau of the way to the equilibrium of second order, equation 6.
-void TwoFluids::relax(Component& own, const Span& span, const std::array<Row, 3>& u) const {
-    const std::size_t n = span.count;
-    const double* const rho = own.density.data() + span.begin;
-    Row squared, goal;
-    for (std::size_t s = 0; s < n; ++s)
-        squared[s] = 1.5 * (u[0][s] * u[0][s] + u[1][s] * u[1][s] + u[2][s] * u[2][s]);
-    for (std::size_t i = 0; i < directions; ++i) {
-        const double cx = velocities[i][0], cy = velocities[i][1], cz = velocities[i][2], w = weight(i);
-        for (std::size_t s = 0; s < n; ++s) {
-            const double along = cx * u[0][s] + cy * u[1][s] + cz * u[2][s];
-            goal[s] = w * rho[s] * (1 + 3 * along + 4.5 * along * along - squared[s]);
-        }
-        double* const moving = own.moving.data() + slot(i, span.begin);
-        if (own.arrived.empty()) {
-            std::copy_n(goal.begin(), n, moving);
-            continue;
-        }
-        const double* const arrived = own.arrived.data() + slot(i, span.begin);
-        for (std::size_t s = 0; s < n; ++s)
-            moving[s] = arrived[s] + (goal[s] - arrived[s]) / settings_.relaxation;
-    }
+void TwoFluids::fillGhosts() {
+    inParts(
+        ghosts.size(), settings_.threads,
+        [&](int, std::size_t begin, std::size_t end) {
+            for (Component& own : components)
+                for (std::size_t g = begin; g < end; ++g) {
+                    const auto& [to, from, sign] = ghosts[g];
+                    own.density[to] = own.density[from], own.base[to] = own.base[from];
+                    for (std::size_t k = 0; k < 3; ++k) own.velocity[k][to] = sign[k] * own.velocity[k][from];
+                }
+        },
+        ghostsWorth);
 }
 
 void TwoFluids::step() {
-    fillSlots();
-    stream();
-    findForces();
-    collide();
+    forEachSpan([&](const Span& span) { stream(span); });
+    for (Component& own : components) {
+        std::swap(own.density, own.nextDensity);
+        std::swap(own.velocity, own.nextMomentum);
+    }
+    findPsi();
+    forEachSpan([&](const Span& span) { collide(span); });
+    fillGhosts();
 }
 
 void TwoFluids::steps(std::size_t count) {

@@ -20,14 +20,19 @@ struct PressureSums {
 
 struct FluidSettings {
     double coupling = 0.1;  // G, with the degeneracies 2 and 1: 3.6 with the weights of the lattice
-    double relaxation = 1;  // tau of both components; viscosity (2 tau - 1)/6
     int threads = 1;
+    double friction =
+        0;  // share of the momentum that is taken from each node in each step: for coming to rest
 };
+
+/// Kinematic, of both components: (2 tau - 1)/6 for tau = 1.
+inline constexpr double viscosity = 1.0 / 6;
 
 /// Two fluids that repel each other on a D3Q19 lattice: X. Shan and H. Chen, Phys. Rev. E 47 (1993) 1815, as
 /// in Yang, Sega and Harting, AIChE J. 67 (2021) e17350, equations 3 to 14:
-/// - each component relaxes towards the equilibrium of second order at u' + tau F/rho, u' the common
-/// velocity;
+/// - each component relaxes to the equilibrium of second order at u' + tau F/rho, u' the common velocity. tau
+/// is 1:
+///   what leaves a node is that equilibrium, and no population is stored, only a density and a velocity;
 /// - F = -psi(x) G sum_i g_i psi'(x + c_i) c_i of the other component, psi = 1 - exp(-rho) (rho0 = 1), g as
 /// degeneracy();
 /// - populations are thrown back half way to a solid, with its momentum if it moves: A. J. C. Ladd, J. Fluid
@@ -45,6 +50,7 @@ public:
 
     void step();
     void steps(std::size_t count);
+    void setFriction(double friction) { settings_.friction = friction; }
 
     [[nodiscard]] const Grid& grid() const { return grid_; }
     [[nodiscard]] const FluidSettings& settings() const { return settings_; }
@@ -76,27 +82,27 @@ public:
 
 private:
     struct Span {
-        std::size_t begin, count;  // sites in a row, with few that are not of fluid
+        std::size_t begin, count;      // sites in a row, whole packs, with few that are not of fluid
+        std::size_t firstHole, holes;  // these few
+        std::size_t firstLink, links;
     };
-    static constexpr std::size_t longestSpan = 256;  // so that what it works on stays in the cache
-    using Row = std::array<double, longestSpan>;
+    using Field = std::vector<double>;
     struct Component {
-        std::vector<double> moving;   // populations after the collision, direction by direction
-        std::vector<double> arrived;  // before it; empty for tau = 1, where they do not count
-        std::vector<double> density, psi;
-        std::array<std::vector<double>, 3> momentum;
+        Field density, psi;
+        std::array<Field, 3> velocity;  // of the equilibrium that leaves a node; while it streams, momentum
+        Field base;                     // density (1 - 1.5 velocity^2); all are 0 where no fluid is, but psi
+        Field nextDensity;
+        std::array<Field, 3> nextMomentum;
     };
-    struct Copy {
+    struct Ghost {
         std::size_t to, from;
+        std::array<double, 3> sign;  // of the velocity, in a mirror
     };
-    struct MovingLink {
-        std::size_t slot, site;
-        double factor;  // times the density: what a moving solid adds to a population
-    };
+    /// A population that a solid throws back to the site of fluid from which it came.
     struct Link {
-        std::size_t site, outgoing;
+        std::size_t site, direction;  // in which it comes back
         int solid;
-        double factor;
+        double factor;  // times the density: what a moving solid adds to it
     };
     struct Shell {
         std::size_t site, firstNeighbour, neighbours;
@@ -104,30 +110,29 @@ private:
     };
 
     void layOut();
+    void findSolids();
+    void addToSpans(const Node& node);
     void addLinks(const Node& node);
     void addShell(const Node& node);
     void setEquilibrium(std::size_t site, const Densities& rho, const Vector<double>& velocity = {0, 0, 0});
     void uncover(const Node& node, const std::vector<int>& before);
-    void fillSlots();
-    void stream();
-    void streamSpan(const Span& span);
-    void findForces();
-    void collide();
-    void collideSpan(const Span& span);
-    void sumNeighbours(const Component& other, const Span& span, std::array<Row, 3>& sums) const;
-    void relax(Component& own, const Span& span, const std::array<Row, 3>& u) const;
+    void forEachSpan(const std::function<void(const Span&)>& function) const;
+    void stream(const Span& span);
+    void throwBack(Component& own, const Span& span) const;
+    void findPsi();
+    void collide(const Span& span);
+    void fillGhosts();
+    /// What leaves a node in a direction: the equilibrium, equation 6.
+    [[nodiscard]] double population(const Component& own, std::size_t direction, std::size_t site) const;
     [[nodiscard]] Vector<double> forceOn(std::size_t component, std::size_t site) const;
-    [[nodiscard]] std::size_t slot(std::size_t direction, std::size_t site) const {
-        return direction * grid_.size() + site;
-    }
 
     Grid grid_;
     std::vector<Solid> solids;
     FluidSettings settings_;
     std::vector<int> solidOf;  // by site, ghosts included
     std::vector<Span> spans;   // of fluid
-    std::vector<Copy> slots, ghosts;
-    std::vector<MovingLink> movingLinks;
+    std::vector<std::size_t> holes;
+    std::vector<Ghost> ghosts;
     std::vector<Link> links;
     std::vector<Shell> shells;
     std::vector<std::size_t> shellNeighbours;

@@ -45,8 +45,7 @@ Densities TwoFluids::moveSolids(std::vector<Solid> moved, const Densities& wante
     grid_.forEachNode([&](const Node& node) {
         if (solidAt(node) >= 0) return;
         const std::size_t c = prevails(node);
-        for (std::size_t i = 0; i < directions; ++i)
-            where[c] += components[c].moving[slot(i, grid_.at(node))];
+        where[c] += components[c].density[grid_.at(node)];
     });
     const Densities lack{wanted[0] - has[0], wanted[1] - has[1]};
     scale([&](const Node& node) -> Densities {
@@ -55,7 +54,7 @@ Densities TwoFluids::moveSolids(std::vector<Solid> moved, const Densities& wante
         factor[c] = 1 + lack[c] / where[c];
         return factor;
     });
-    findForces();
+    findPsi();
     return lack;
 }
 

@@ -22,7 +22,7 @@ double TwoFluids::pressureAt(const Node& node) const {
            12 * settings_.coupling * first.psi[site] * second.psi[site];
 }
 
-/// Equation 7.
+/// Equation 7, at a node of fluid.
 Vector<double> TwoFluids::forceOn(std::size_t component, std::size_t site) const {
     const std::vector<double>& other = components[1 - component].psi;
     Vector<double> sum{0, 0, 0};
@@ -32,14 +32,16 @@ Vector<double> TwoFluids::forceOn(std::size_t component, std::size_t site) const
     return -settings_.coupling * components[component].psi[site] * sum;
 }
 
+/// The velocities of the equilibria have the whole force, the printed one has half of it.
 Vector<double> TwoFluids::velocityAt(const Node& node) const {
     const std::size_t site = grid_.at(node);
     Vector<double> momentum{0, 0, 0};
     double density = 0;
     for (std::size_t c = 0; c < 2; ++c) {
-        const auto& [x, y, z] = components[c].momentum;
-        momentum += Vector<double>{x[site], y[site], z[site]} + 0.5 * forceOn(c, site);
-        density += components[c].density[site];
+        const auto& [x, y, z] = components[c].velocity;
+        const double rho = components[c].density[site];
+        momentum += rho * Vector<double>{x[site], y[site], z[site]} - 0.5 * forceOn(c, site);
+        density += rho;
     }
     return 1 / density * momentum;
 }
@@ -56,9 +58,7 @@ Densities TwoFluids::mass() const {
     Densities sum{0, 0};
     grid_.forEachNode([&](const Node& node) {
         if (solidAt(node) >= 0) return;
-        for (std::size_t c = 0; c < 2; ++c)
-            for (std::size_t i = 0; i < directions; ++i)
-                sum[c] += components[c].moving[slot(i, grid_.at(node))];
+        for (std::size_t c = 0; c < 2; ++c) sum[c] += components[c].density[grid_.at(node)];
     });
     return sum;
 }
@@ -67,12 +67,12 @@ std::vector<SolidForce> TwoFluids::solidForces() const {
     std::vector<SolidForce> forces(solids.size());
     for (const Link& link : links) {
         SolidForce& force = forces[static_cast<std::size_t>(link.solid)];
-        const std::size_t i = link.outgoing / grid_.size();
+        const std::size_t i = opposite(link.direction);
         const std::size_t wall = link.site + static_cast<std::size_t>(grid_.offset(i));
         double exchange = 0, pull = 0;
         for (std::size_t c = 0; c < 2; ++c) {
             exchange +=
-                2 * components[c].moving[link.outgoing] + link.factor * components[c].density[link.site];
+                2 * population(components[c], i, link.site) + link.factor * components[c].density[link.site];
             pull += components[c].psi[link.site] * components[1 - c].psi[wall];
         }
         force.exchange += exchange * vectorOf(velocities[i]);
@@ -94,9 +94,9 @@ double TwoFluids::thrustThroughSide(std::size_t axis, bool isLast) const {
             const Node beyond = neighbour(node, i);
             if (velocities[i][axis] != (isLast ? 1 : -1) || solidAt(beyond) >= 0) continue;
             for (std::size_t c = 0; c < 2; ++c)
-                sum += 2 * components[c].moving[slot(i, site)] + settings_.coupling * degeneracy(i) *
-                                                                     components[c].psi[site] *
-                                                                     components[1 - c].psi[grid_.at(beyond)];
+                sum += 2 * population(components[c], i, site) + settings_.coupling * degeneracy(i) *
+                                                                    components[c].psi[site] *
+                                                                    components[1 - c].psi[grid_.at(beyond)];
         }
     });
     return sum;
@@ -112,7 +112,7 @@ PressureSums TwoFluids::pressureSums() const {
             const Vector<double> c = vectorOf(velocities[i]);
             const double pair = settings_.coupling * degeneracy(i) * first.psi[site] *
                                 second.psi[grid_.at(neighbour(node, i))];
-            const double moved = first.moving[slot(i, site)] + second.moving[slot(i, site)] + pair;
+            const double moved = population(first, i, site) + population(second, i, site) + pair;
             sum.xx += moved * c.x * c.x, sum.yy += moved * c.y * c.y, sum.zz += moved * c.z * c.z;
             sum.xy += moved * c.x * c.y;
         }
@@ -126,10 +126,10 @@ void TwoFluids::scale(const std::function<Densities(const Node&)>& function) {
         const Densities factor = function(node);
         for (std::size_t c = 0; c < 2; ++c) {
             components[c].density[grid_.at(node)] *= factor[c];
-            for (std::size_t i = 0; i < directions; ++i)
-                components[c].moving[slot(i, grid_.at(node))] *= factor[c];
+            components[c].base[grid_.at(node)] *= factor[c];
         }
     });
+    fillGhosts();
 }
 
 }  // namespace pendular::lattice

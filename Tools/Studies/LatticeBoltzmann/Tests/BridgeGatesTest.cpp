@@ -11,6 +11,7 @@ namespace {
 BridgeCase caseOf(double radius, double gap = 0.625, double volume = 0.133, double wetting = 0.1) {
     BridgeCase bridge;
     bridge.radius = radius, bridge.gap = gap, bridge.volume = volume, bridge.wetting = wetting;
+    bridge.pressure = 1.4;
     return bridge;
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 PairCase smallPair(double room = 0) {
     PairCase pair;
-    pair.radius = {6, 6}, pair.gap = 4, pair.volume = 150, pair.room = room;
+    pair.radius = {6, 6}, pair.gap = 4, pair.volume = 150, pair.room = room, pair.pressure = 1.4;
     return pair;
 }
 
@@ -51,7 +51,8 @@ TEST(Pair, ofEqualSpheresIsABridge) {
     EXPECT_NEAR(state.force[0], state.force[1], 1e-6 * state.force[0]);
     EXPECT_NEAR(state.volume, pair.volume, 0.2 * pair.volume);  // so few nodes still dissolve
     BridgeCase bridge;
-    bridge.radius = 6, bridge.gap = 4.0 / 6, bridge.volume = 150 / (4 * std::numbers::pi / 3 * 216);
+    bridge.radius = 6, bridge.gap = 4.0 / 6, bridge.pressure = 1.4,
+    bridge.volume = 150 / (4 * std::numbers::pi / 3 * 216);
     TwoFluids eighth = beginBridge(bridge);
     pour(eighth, bridge, 0.01, 5000);
     const BridgeState same = measure(eighth, bridge, TensionLine(bridge.fluid));
@@ -60,7 +61,7 @@ TEST(Pair, ofEqualSpheresIsABridge) {
 
 // The middle of equal spheres that part is a mirror plane: each has half, and what breaks is the whole.
 TEST(Pair, equalSpheresPartWithHalfOfTheLiquidEach) {
-    const PairCase pair = smallPair(9);
+    const PairCase pair = smallPair(14);
     TwoFluids fluids = beginPair(pair);
     pour(fluids, pair, 0.02, 2000);
     std::size_t rows = 0;

@@ -16,8 +16,11 @@ const std::string program = folders::tools.string() + "/Studies/lattice-boltzman
 TEST(LatticeBoltzmannProgram, refusesWhatCannotBe) {
     expectOneSentence(run(program + " --bridge --radius 1"), "radius");
     expectOneSentence(run(program + " --bridge --gap -1"), "gap");
-    expectOneSentence(run(program + " --bridge --relaxation 0.4 --radius 4"), "relaxation");
+    expectOneSentence(run(program + " --bridge --coupling -1 --radius 4"), "coupling");
     expectOneSentence(run(program + " --bridge --angle-deg 200"), "--angle-deg");
+    expectOneSentence(run(program + " --trimer --radius 6 --gap 2"), "gap");
+    expectOneSentence(run(program + " --trimer --radius 6 --volumes 0.05,5 --most-steps 100"), "volume");
+    expectOneSentence(run(program + " --angles --radius 8 --wettings 0 --drops 5"), "drop");
     EXPECT_EQ(run(program).exitCode, 1);
 }
 
