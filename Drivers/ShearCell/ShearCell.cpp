@@ -11,7 +11,8 @@ struct Options {
     double inertialNumber = 0;  // 0: at the solid fraction
     std::size_t number = 1000;  // about
     double friction = 0.5, restitution = 0.7;
-    double stiffness = 1e6;  // over density x diameter^3 x rate^2
+    double stiffness = 1e6;     // over density x diameter^3 x rate^2
+    double collisionError = 0;  // 0: 50 steps a contact
     double strain = 10, interval = 1;
     RunOptions run{.output = "ShearCell-output"};
 };
@@ -32,10 +33,12 @@ public:
         for (int axis = 0; axis < 3; ++axis) setPeriodic(axis, 0, cells() * cell());
         setLeesEdwards(0, 1, rate);
         addGrains();  // also of a run that goes on: the step is chosen for them
-        setTimeStep(shortestContactTime() / 50);
+        const double step = shortestContactTime() / 50;
+        setTimeStep(step);
+        if (options.collisionError > 0) setStepFor(options.collisionError, rate * diameter);
         // The time of the servo: some twice that in which sound passes the cell, at up to
         // diameter x sqrt(stiffness / mass) = 2.2 diameters in a contact time of 50 steps.
-        if (options.inertialNumber > 0) setTargetStress(1, pressure(), 80 * cells() * getTimeStep(), rate);
+        if (options.inertialNumber > 0) setTargetStress(1, pressure(), 80 * cells() * step, rate);
         setInterval(options.interval / rate, 100);
     }
     void writeRow(const Means& means) override {
@@ -104,6 +107,12 @@ int main(int argc, char** argv) {
             {"friction", "", &o.friction, {0, 10}, "coefficient of friction of the grains"},
             {"restitution", "", &o.restitution, {0.01, 1}, "coefficient of restitution of the grains"},
             {"stiffness", "", &o.stiffness, {1e3, 1e12}, "of a contact, over density x diameter^3 x rate^2"},
+            {"collision-error",
+             "",
+             &o.collisionError,
+             {0, 0.1},
+             "of velocities after a collision at rate x diameter, for which the time step is chosen; 0: 50 "
+             "steps a contact"},
             {"strain", "", &o.strain, notNegative, "rate x time at the end of the run"},
             {"interval-strain", "", &o.interval, positive, "over which a row of the table is a mean"}}};
     return runDriver(driver, argc, argv, [&] { ShearCell(o).solve(); });

@@ -15,6 +15,8 @@ using Material = LinearViscoelasticSlidingFrictionLiquidBridgeBagheriSpecies;
 
 struct Options {
     double reducedPressure = 1, inertialNumber = 0.1, strain = 20;
+    double stiffness = 1e3;  // times (force of a bridge + pressure x diameter^2) / diameter
+    std::size_t seed = 1;
     RunOptions run{.output = "WetPlaneShear-output"};
 };
 
@@ -23,11 +25,11 @@ public:
     explicit WetPlaneShear(const Options& given) : options(given) { options.run.apply(*this); }
 
     void setupInitialConditions() override {
-        // A contact that carries a bridge and the pressure overlaps by a thousandth of the diameter.
+        // A contact that carries a bridge and the pressure overlaps by diameter / options.stiffness.
         const double force = constants::pi * tension * diameter + pressure * diameter * diameter;
         material = speciesHandler.copyAndAddObject({});
         material->setDensity(density);
-        material->setStiffnessAndRestitutionCoefficient(1e3 * force / diameter, 0.5, mass);
+        material->setStiffnessAndRestitutionCoefficient(options.stiffness * force / diameter, 0.5, mass);
         material->setSlidingStiffness(2.0 / 7 * material->getStiffness());
         material->setSlidingDissipation(2.0 / 7 * material->getDissipation());
         material->setSlidingFrictionCoefficient(0.3);
@@ -75,7 +77,7 @@ private:
 
     /// The upper wall's grains come first, those of the lower one last.
     void addGrains() {
-        UniformRandom random(1);
+        UniformRandom random(options.seed);
         auto cells = latticeCells({0, 0, 0}, {width, width, 1.5 * width}, latticeLooseness * diameter,
                                   [](const Vec3D&) { return true; });
         std::reverse(cells.begin(), cells.end());
@@ -128,6 +130,12 @@ int main(int argc, char** argv) {
         .numbers = {
             {"reduced-pressure", "", &o.reducedPressure, {0.01, 1000}, "P d / (pi gamma)"},
             {"inertial-number", "", &o.inertialNumber, {1e-4, 1}, "shear rate times d sqrt(density / P)"},
+            {"stiffness",
+             "",
+             &o.stiffness,
+             {10, 1e6},
+             "of a contact, over (force of a bridge + pressure x diameter^2) / diameter"},
+            {"seed", "", &o.seed, {0, 1e9}, "of the grains' places at the start"},
             {"strain", "", &o.strain, {0.1, 1e4}, "of the run"}}};
     return runDriver(driver, argc, argv, [&] { WetPlaneShear(o).solve(); });
 }

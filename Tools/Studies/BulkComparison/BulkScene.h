@@ -9,7 +9,7 @@
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Species/LawNames.h"
 
-// Four small scenes that Pendular, LIGGGHTS and LAMMPS can all have: only spheres, planes and a cylinder.
+// Five small scenes that Pendular, LIGGGHTS and LAMMPS can all have: only spheres, planes and a cylinder.
 
 namespace pendular::bulk {
 
@@ -51,10 +51,11 @@ struct BulkScene {
     double cylinder = 0, spin = 0;  // m, rad/s: of a drum about z; 0: planes at the lowest faces
     double wallFriction = PeerMaterial::friction;
     bool settles = false;  // begins with grains that have come to rest
+    bool drains = false;   // through a floor of held grains at z = 0
     std::vector<PeerGrain> grains{};
 };
 
-inline constexpr std::array bulkSceneNames{"bed", "drum", "hopper", "impact"};
+inline constexpr std::array bulkSceneNames{"bed", "drum", "hopper", "silo", "impact"};
 
 namespace detail {
 
@@ -67,6 +68,10 @@ inline PeerGrain looseGrain(const Vec3D& centre, UniformRandom& random) {
     const auto speed = [&] { return random.uniform(-0.2, 0.2); };
     const double x = speed(), y = speed();
     return {GrainKind::Free, row.radius, PeerMaterial::density, row.position, {x, y, speed()}};
+}
+/// Of a floor at z = 0.
+inline PeerGrain heldGrain(double x, double y) {
+    return {GrainKind::Held, PeerMaterial::radius, PeerMaterial::density, {x, y, 0}, Vec3D::Zero()};
 }
 template <class Fits>
 void fill(BulkScene& scene, const Vec3D& low, const Vec3D& high, std::size_t number, UniformRandom& random,
@@ -122,17 +127,35 @@ inline BulkScene hopper(UniformRandom& random) {
                     .lowest = {-half, 0, -0.01},
                     .highest = {half, length, 0.15},
                     .periodic = {false, true, false},
-                    .settles = true};
+                    .settles = true,
+                    .drains = true};
     const int across = static_cast<int>(length / (1.8 * r));
     for (double x = slit; x < half; x += 1.8 * r)
         for (const double side : {-1.0, 1.0})
             for (int k = 0; k < across; ++k)
-                scene.grains.push_back({GrainKind::Held,
-                                        r,
-                                        PeerMaterial::density,
-                                        {side * x, (k + 0.5) * length / across, 0},
-                                        Vec3D::Zero()});
+                scene.grains.push_back(heldGrain(side * x, (k + 0.5) * length / across));
     fill(scene, {-half, 0, 1.2 * r}, {half, length, 0.15}, 1500, random, everywhere);
+    return scene;
+}
+
+/// Over a floor of held grains with a round opening, far from any wall.
+inline BulkScene silo(UniformRandom& random) {
+    const double width = 11 * cell, opening = 0.0065, r = PeerMaterial::radius;  // m, a radius
+    BulkScene scene{.name = "silo",
+                    .endTime = 0.3,
+                    .interval = 2e-3,
+                    .measureFrom = 0.05,
+                    .lowest = {0, 0, -0.01},
+                    .highest = {width, width, 0.15},
+                    .periodic = {true, true, false},
+                    .settles = true,
+                    .drains = true};
+    const int across = static_cast<int>(width / (1.8 * r));
+    for (int k = 0; k < across * across; ++k) {
+        const double x = (k % across + 0.5) * width / across, y = (k / across + 0.5) * width / across;
+        if (std::hypot(x - 0.5 * width, y - 0.5 * width) >= opening) scene.grains.push_back(heldGrain(x, y));
+    }
+    fill(scene, {0, 0, 1.2 * r}, {width, width, 0.15}, 2200, random, everywhere);
     return scene;
 }
 
@@ -158,6 +181,7 @@ inline BulkScene bulkScene(const std::string& name, std::uint64_t seed) {
     if (name == "bed") return detail::bed(random);
     if (name == "drum") return detail::drum(random);
     if (name == "hopper") return detail::hopper(random);
+    if (name == "silo") return detail::silo(random);
     if (name == "impact") return detail::impact(random);
     unknownName("scene", name, std::vector<std::string_view>(bulkSceneNames.begin(), bulkSceneNames.end()));
 }

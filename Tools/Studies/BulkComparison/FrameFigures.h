@@ -55,21 +55,21 @@ public:
 
     /// @param grains those that have not left
     void add(double time, const std::vector<PeerGrain>& grains) {
-        isLost = isLost || (scene.name != "hopper" && grains.size() != number);
+        isLost = isLost || (!scene.drains && grains.size() != number);
         double energy = 0, mass = 0;  // J, kg
         for (const PeerGrain& grain : grains) {
             if (!grain.position.allFinite() || !grain.velocity.allFinite()) isLost = true;
             if (grain.kind == GrainKind::Intruder) deepest = std::min(deepest, grain.position.z());
             if (grain.kind != GrainKind::Free) continue;
             energy += 0.5 * massOf(grain) * grain.velocity.squaredNorm();
-            if (scene.name != "hopper" || grain.position.z() > -PeerMaterial::radius) mass += massOf(grain);
+            if (!scene.drains || grain.position.z() > -PeerMaterial::radius) mass += massOf(grain);
         }
         energies.push_back({time, energy});
         left.push_back({time, massAtStart - mass});
         if (isLost || time < scene.measureFrom - 0.5 * scene.interval) return;
         if (scene.name == "bed") addBed(grains);
         if (scene.name == "drum") addDrum(grains);
-        if (scene.name != "hopper") sum("kinetic_energy_J", energy);
+        if (!scene.drains) sum("kinetic_energy_J", energy);
         if (scene.name == "impact") sum("coordination", overlapsOf(scene, grains).coordination);
     }
 
@@ -89,7 +89,7 @@ public:
             mean(name);
         if (scene.name == "bed") found.emplace_back("settling_time_s", settlingTime());
         if (scene.name != "bed") mean("kinetic_energy_J");
-        if (scene.name == "hopper") {
+        if (scene.drains) {
             std::vector<CurvePoint> steady;
             for (const CurvePoint& p : left)
                 if (p.x >= scene.measureFrom) steady.push_back(p);

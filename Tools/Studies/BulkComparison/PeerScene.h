@@ -12,8 +12,8 @@ class PeerScene : public Simulation<HertzianViscoelasticMindlinSpecies> {
 public:
     using Material = HertzianViscoelasticMindlinSpecies;
 
-    /// @param hopperIsClosed grains settle on a plane in the slit
-    explicit PeerScene(const BulkScene& given, bool hopperIsClosed = false) {
+    /// @param isClosed grains settle on a plane in the opening of a floor
+    explicit PeerScene(const BulkScene& given, bool isClosed = false) {
         const Material* grains = speciesHandler.copyAndAddObject(material(PeerMaterial::density));
         const Material* heavy = speciesHandler.copyAndAddObject(material(3 * PeerMaterial::density));
         const Material* walls = speciesHandler.copyAndAddObject(material(PeerMaterial::density));
@@ -25,7 +25,7 @@ public:
         Vec3D down = Vec3D::Zero();
         down[given.up] = -PeerMaterial::gravity;
         setGravity(down);
-        addWalls(given, walls, hopperIsClosed);
+        addWalls(given, walls, isClosed);
         for (const PeerGrain& row : given.grains) add(row, row.kind == GrainKind::Intruder ? heavy : grains);
     }
 
@@ -54,7 +54,7 @@ private:
         made.setSpringFactor(1);  // as the peers have it
         return made;
     }
-    void addWalls(const BulkScene& given, const Material* walls, bool hopperIsClosed) {
+    void addWalls(const BulkScene& given, const Material* walls, bool isClosed) {
         if (given.cylinder > 0) {
             FiniteCylinder wall;
             wall.setSpecies(walls);
@@ -71,13 +71,12 @@ private:
             wall.set(outward, point);
             wallHandler.copyAndAddObject(wall);
         };
-        if (given.name != "hopper") {
+        if (!given.drains) {
             plane(-Vec3D::UnitZ(), given.lowest);
             return;
         }
-        plane(-Vec3D::UnitX(), given.lowest);
-        plane(Vec3D::UnitX(), given.highest);
-        if (hopperIsClosed) {
+        if (!given.periodic[0]) plane(-Vec3D::UnitX(), given.lowest), plane(Vec3D::UnitX(), given.highest);
+        if (isClosed) {
             plane(-Vec3D::UnitZ(), {0, 0, -PeerMaterial::radius});
             return;
         }

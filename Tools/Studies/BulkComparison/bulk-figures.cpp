@@ -15,8 +15,9 @@ namespace {
 struct Options {
     std::string scene = "bed", integrator = "default", data, start, frames;
     std::uint64_t seed = 1;
-    double step = 0.1;   // of Rayleigh's time, or the share of the adaptive step
-    double seconds = 0;  // of the processor, that another code has taken
+    double step = 0.1;            // of Rayleigh's time; a share, or the error of collisions
+    std::optional<double> speed;  // m/s, of collisions for the error
+    double seconds = 0;           // of the processor, that another code has taken
 };
 
 void setUp(bulk::PeerScene& scene, const Options& o) {
@@ -28,13 +29,21 @@ void setUp(bulk::PeerScene& scene, const Options& o) {
         scene.setAdaptiveTimeStep(o.step);
         return;
     }
+    if (o.integrator == "advised") {
+        scene.setTimeStep(o.step * std::min(scene.stabilityLimit(), scene.shortestContactTime() / 25));
+        return;
+    }
     scene.acceptUnstableTimeStep();
+    if (o.integrator == "for-error") {
+        scene.setStepFor(o.step, o.speed);
+        return;
+    }
     if (o.integrator == "springs-in-step") scene.setIntegrator(integrators::springsInStep);
     else if (o.integrator == "velocity-verlet") scene.setIntegrator(integrators::velocityVerlet);
     else if (o.integrator != "default")
         unknownName("integrator", o.integrator,
-                    std::vector<std::string_view>{"default", "at-limit", "springs-in-step", "velocity-verlet",
-                                                  "adaptive"});
+                    std::vector<std::string_view>{"default", "at-limit", "advised", "for-error",
+                                                  "springs-in-step", "velocity-verlet", "adaptive"});
 }
 
 /// The figures of a run, and the time of the processor (s) that its steps have taken.
@@ -93,13 +102,17 @@ int main(int argc, char** argv) {
         "name.");
     Options o;
     app.option_defaults()->always_capture_default();
-    app.add_option("--scene", o.scene, "bed, drum, hopper or impact");
+    app.add_option("--scene", o.scene, "bed, drum, hopper, silo or impact");
     app.add_option("--seed", o.seed, "of the grains");
-    app.add_option("--integrator", o.integrator,
-                   "default, at-limit (the default, by its stability limit), springs-in-step, "
-                   "velocity-verlet or adaptive");
+    app.add_option(
+        "--integrator", o.integrator,
+        "default, at-limit (the default, by its stability limit), advised (by the smaller of that and "
+        "a contact's time / 25), for-error (setStepFor()), springs-in-step, velocity-verlet or "
+        "adaptive");
     app.add_option("--step", o.step,
-                   "over Rayleigh's time of the largest grain; of at-limit and adaptive: the share");
+                   "over Rayleigh's time of the largest grain; of at-limit, advised and adaptive: the share; "
+                   "of for-error: the error");
+    app.add_option("--speed-m-s", o.speed, "of for-error: at which grains meet; as estimated if not given");
     app.add_option("--modulus-Pa", bulk::PeerMaterial::elasticModulus, "Young's; the others have 5e6");
     auto* data = app.add_option("--data", o.data,
                                 "write the start to this file, for read_data of the others, and print "

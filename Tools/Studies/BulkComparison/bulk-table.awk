@@ -7,6 +7,7 @@ function median(at,   i, j, t) {
     for (i = 1; i <= runs[at]; i++) for (j = i + 1; j <= runs[at]; j++) if (cost[at, j] < cost[at, i]) { t = cost[at, i]; cost[at, i] = cost[at, j]; cost[at, j] = t }
     return runs[at] % 2 ? cost[at, (runs[at] + 1) / 2] : (cost[at, runs[at] / 2] + cost[at, runs[at] / 2 + 1]) / 2
 }
+function scatter(at,   i, s, square) { for (i = 1; i <= runs[at]; i++) { s += cost[at, i]; square += cost[at, i] ^ 2 } return runs[at] > 1 ? sqrt((square / runs[at] - (s / runs[at]) ^ 2 > 0 ? square / runs[at] - (s / runs[at]) ^ 2 : 0) / (runs[at] - 1)) : 0 }
 # Each variant of Pendular against its default; the others against themselves.
 function reference(scene, code) { return scene SUBSEP first[scene, code ~ /^pendular/ ? "pendular-default" : code] }
 {
@@ -29,12 +30,12 @@ END {
         printf "%s: %s lost grains at its smallest step, %s of Rayleigh's time, which its others are compared with; begin with a smaller one.\n", scene[c], parts[1], parts[2] >"/dev/stderr"
         exit 1
     }
-    print "scene,code,step_over_rayleigh_time_or_share,step_s,runs,runs_that_survived,processor_s_per_s,figure,mean,standard_error,deviation_percent,deviation_standard_error_percent"
+    print "scene,code,step_over_rayleigh_time_or_share,step_s,runs,runs_that_survived,processor_s_per_s,processor_s_per_s_standard_error,figure,mean,standard_error,deviation_percent,deviation_standard_error_percent"
     for (c = 1; c <= count; c++) {
         run = order[c]
         all = split(figures[scene[c]], names, " ")
         for (f = 1; f <= all; f++) {
-            head = sprintf("%s,%s,%s,%.4g,%d,%d,%.4g,%s", scene[c], code[c], share[c], step[c], runs[run], alive[run], median(run), names[f])
+            head = sprintf("%s,%s,%s,%.4g,%d,%d,%.4g,%.2g,%s", scene[c], code[c], share[c], step[c], runs[run], alive[run], median(run), scatter(run), names[f])
             at = run SUBSEP names[f]; to = reference(scene[c], code[c]) SUBSEP names[f]
             if (alive[run] < runs[run]) { print head ",nan,nan,nan,nan"; continue }
             m = mean(at)

@@ -28,19 +28,45 @@ TEST(BulkComparison, findsOverlapsAcrossAFace) {
 
 // A grain leaves in each frame: the flow is its mass over the time between frames.
 TEST(BulkComparison, findsASteadyFlow) {
-    BulkScene scene = bulkScene("hopper", 1);
-    const PeerGrain grain{GrainKind::Free, 1e-3, 2500, {0, 0, 0.01}, Vec3D::Zero()};
-    scene.grains.assign(200, grain);
-    FrameFigures figures(scene);
-    std::vector<PeerGrain> left = scene.grains;
-    for (int k = 0; k <= 150; ++k, left.pop_back()) figures.add(scene.interval * k, left);
-    ASSERT_TRUE(figures.survived());
-    const double mass = 4.0 / 3 * std::numbers::pi * 1e-9 * 2500;
-    const std::map<std::string, double> found = [&] {
-        const auto all = figures.figures();
-        return std::map<std::string, double>(all.begin(), all.end());
-    }();
-    EXPECT_NEAR(found.at("flow_kg/s") * scene.interval / mass, 1, 1e-9);
+    for (const char* name : {"hopper", "silo"}) {
+        BulkScene scene = bulkScene(name, 1);
+        const PeerGrain grain{GrainKind::Free, 1e-3, 2500, {0, 0, 0.01}, Vec3D::Zero()};
+        scene.grains.assign(200, grain);
+        FrameFigures figures(scene);
+        std::vector<PeerGrain> left = scene.grains;
+        for (int k = 0; k <= 150; ++k, left.pop_back()) figures.add(scene.interval * k, left);
+        ASSERT_TRUE(figures.survived());
+        const double mass = 4.0 / 3 * std::numbers::pi * 1e-9 * 2500;
+        const std::map<std::string, double> found = [&] {
+            const auto all = figures.figures();
+            return std::map<std::string, double>(all.begin(), all.end());
+        }();
+        EXPECT_NEAR(found.at("flow_kg/s") * scene.interval / mass, 1, 1e-9);
+    }
+}
+
+// Held grains do not reach into the opening, and leave no other gap that a grain fits through.
+TEST(BulkComparison, theFloorOfTheSiloHasOneOpening) {
+    const BulkScene scene = bulkScene("silo", 1);
+    const double r = PeerMaterial::radius, width = scene.highest.x();
+    const auto roomAt = [&](double x, double y) {  // m, radius of the largest sphere in the floor there
+        double room = infinity;
+        for (const PeerGrain& grain : scene.grains) {
+            if (grain.kind != GrainKind::Held) continue;
+            const double across = std::remainder(grain.position.x() - x, width),
+                         along = std::remainder(grain.position.y() - y, width);
+            room = std::min(room, std::hypot(across, along) - r);
+        }
+        return room;
+    };
+    EXPECT_GT(roomAt(0.5 * width, 0.5 * width), 5 * r);
+    constexpr int points = 60;
+    for (int k = 0; k < points * points; ++k) {
+        const double x = (k % points) * width / points, y = (k / points) * width / points;
+        if (std::hypot(x - 0.5 * width, y - 0.5 * width) > 0.0065 + r) {
+            EXPECT_LT(roomAt(x, y), PeerMaterial::smallest * r) << x << " " << y;
+        }
+    }
 }
 
 TEST(BulkComparison, aLostGrainOrARunThatEndsEarlyIsNoSurvivor) {
