@@ -38,7 +38,7 @@ table trimers "$trimer --volumes 0.05,0.08,0.11,0.14,0.17" "$trimer --closed --v
 table angles "--angles --wettings 0.1 --radius $radius"
 [[ -e $folder/angles-$radius.csv ]] || exit 0
 # The angle at which a drop meets the sphere: that of the exact bridges in the tables.
-angle=$(sed -n '$s/.*,//p' "$folder/angles-$radius.csv")
+angle=$(awk -F, 'END { print $5 }' "$folder/angles-$radius.csv")
 
 bridge="--bridge --wetting 0.1 --angle-deg $angle --most-steps 8000"
 rows=()

@@ -43,8 +43,9 @@ void printTensions(const FluidSettings& fluid) {
 }
 
 void printAngles(const Options& o) {
-    checkValue("lattice-boltzmann", "--radius", o.scene.radius, "nodes", {4, 200});
-    for (const double drop : o.drops) checkValue("lattice-boltzmann", "--drops", drop, "R", {0.1, 1.4});
+    checkValue("lattice-boltzmann", "--radius", o.scene.radius, "nodes", {8, 200});
+    const double least = 10 / o.scene.radius;  // nodes within 6 of the sphere do not count
+    for (const double drop : o.drops) checkValue("lattice-boltzmann", "--drops", drop, "R", {least, 1.4});
     fmt::print("wetting,angle_on_plane_deg,radius_of_sphere,drop,angle_on_sphere_deg,line_deg\n");
     for (const double wetting : o.wettings) {
         const double onPlane = angleOnPlane(wetting, 25, o.scene.fluid);
