@@ -1,6 +1,7 @@
 # Of a table bulk-peers.csv of compare-bulk.sh: what the same error of a bulk figure takes, theirs over ours (pendular-default), for
-# errors of 1, 2 and 5 %. Of each code the fastest step counts up to which no step is refuted, that is, lost grains or deviates by
-# more than the error and more than two standard errors. "all" is the one that holds for all figures of the scene.
+# errors of 1, 2 and 5 %. Of each code the fastest step counts that is not refuted, that is, lost no grains and does not deviate by
+# more than the error and more than two standard errors; errors grow with the step, so that a smaller one that is refuted is chance.
+# "all" is the one that holds for all figures of the scene.
 # The range: theirs judged by three standard errors and ours by one, and the other way round, with the scatter of the times.
 function absolute(x) { return x < 0 ? -x : x }
 function larger(a, b) { return a > b ? a : b }
@@ -15,7 +16,7 @@ function holds(row, figure, percent, errors,   f, at) {
 # The row of that step.
 function fastest(scene, code, figure, percent, errors,   k, best) {
     for (k = 1; k <= rowsOf[scene, code]; k++) {
-        if (!holds(rowOf[scene, code, k], figure, percent, errors)) break
+        if (!holds(rowOf[scene, code, k], figure, percent, errors)) continue
         if (best == "" || timeOf[rowOf[scene, code, k]] < timeOf[best]) best = rowOf[scene, code, k]
     }
     return best

@@ -19,7 +19,6 @@ set logscale xy
 set format y "%g %%"
 set yrange [lowest:100]
 set ylabel "deviation from the hardest"
-set key top right samplen 1 opaque
 set multiplot layout 2,3
 do for [panel in "'bed solid_fraction' 'bed coordination' 'drum centre_angle_deg' 'hopper flow_kg/s' 'shear friction' 'wet-shear friction'"] {
     scene = word(panel, 1)
@@ -28,6 +27,7 @@ do for [panel in "'bed solid_fraction' 'bed coordination' 'drum centre_angle_deg
     if (system("grep -c '^".scene.",.*,".figure.",' ".ARG1) eq "0") { set multiplot next; continue }
     set title scene.": ".system("echo ".figure." | sed 's/_deg//; s/_kg.s//; s/_/ /g'")
     if (scene[strlen(scene) - 4:] eq "shear") { set xrange [0.02:20] } else { set xrange [0.3:300] }
+    if (panel eq "bed solid_fraction" || panel eq "shear friction") { set key top right samplen 1 opaque } else { set key off }
     set xlabel scene[strlen(scene) - 4:] eq "shear" ? "s of the processor for a strain of 1" : "s of the processor for a second of the scene"
     plot for [k = 1:5] ARG1 using (cost(k, scene, figure)):(low(abs(column(size)))):(low(abs(column(size)) - scatter(column(error)))):(low(abs(column(size)) + scatter(column(error)))) \
              with yerrorbars linewidth 1.5 pointtype 7 pointsize 1.2 linecolor rgb colours[k] title titles[k], \
