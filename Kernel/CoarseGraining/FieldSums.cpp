@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <type_traits>
+#include <utility>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/Parallel.h"
+#include "Kernel/Contacts/Prefetch.h"
 #include "Kernel/Math/GaussLegendre.h"
 #include "Kernel/Math/Pack.h"
 #include "Kernel/Species/Field.h"
@@ -36,6 +40,16 @@ void addSymmetric(const Vector<double>& a, const Vector<double>& b, double* sums
     std::size_t at = 0;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = i; j < 3; ++j) sums[at++] += 0.5 * (p[i] * q[j] + p[j] * q[i]);
+}
+
+/// Calls function(k) for k = 0 ... count - 1, each a constant: what a loop would keep in memory stays in
+/// registers.
+template <std::size_t count, class Function>
+[[gnu::always_inline]] inline void forEachIndex(Function&& function) {
+    [&]<std::size_t... k>(std::index_sequence<k...>) {
+        (function(std::integral_constant<std::size_t, k>()), ...);
+    }
+    (std::make_index_sequence<count>());
 }
 
 /// The directions of r and theta at a place beside an axis along z.
@@ -71,7 +85,7 @@ GrainGroups GrainGroups::bySize(std::vector<double> diameters) {
     return groups;
 }
 
-std::uint32_t GrainGroups::of(const GrainState::Grain& grain) const {
+std::uint32_t GrainGroups::amongSeveral(const GrainState::Grain& grain) const {
     if (species)
         return grain.species >= 0 && static_cast<std::size_t>(grain.species) < names.size()
                    ? static_cast<std::uint32_t>(grain.species)
@@ -209,88 +223,172 @@ void FieldSums::forImages(const PeriodicBox& periodic, const Vector<double>& low
 
 /// Each thread adds to its own grains, in the order of contacts.
 void FieldSums::gatherContactsOfGrains(const GrainState& state, int threads) {
+    constexpr std::size_t ahead = 16;
     ofGrains.assign(state.grains.size(), {});
     inParts(
         state.grains.size(), threads,
         [&](int, std::size_t begin, std::size_t end) {
             const auto isOwn = [&](std::uint32_t grain) { return grain >= begin && grain < end; };
-            for (const GrainState::Contact& c : state.contacts) {
+            for (std::size_t k = 0; k < state.contacts.size(); ++k) {
+                const GrainState::Contact& c = state.contacts[k];
+                if (k + ahead < state.contacts.size()) {
+                    const std::uint32_t later = state.contacts[k + ahead].second;
+                    if (later < ofGrains.size()) prefetch<true>(&ofGrains[later], sizeof(Eight));
+                }
                 const bool atWall = c.second == GrainState::Contact::wall;
                 const bool ownFirst = isOwn(c.first), ownSecond = !atWall && isOwn(c.second);
                 if (!ownFirst && !ownSecond) continue;
-                std::array<double, 6> fabric{};  // over the grain's volume
-                if (c.touching && !atWall) addSquare(1 / squaredNorm(c.shift), c.shift, fabric.data());
-                const auto add = [&](std::uint32_t grain) {
-                    auto& sum = ofGrains[grain];
-                    const double volume = sphereVolume(state.grains[grain].radius);
-                    for (std::size_t k = 0; k < fabric.size(); ++k) sum[k] += volume * fabric[k];
-                    sum[6] += c.touching ? 1 : 0;
-                    sum[7] += atWall ? c.liquid : 0.5 * c.liquid;
+                const Vector<double>& s = c.shift;
+                const double factor = c.touching && !atWall ? 1 / squaredNorm(s) : 0;
+                const Vector<double> n = factor * s;
+                const Eight one{{n.x * s.x, n.x * s.y, n.x * s.z, n.y * s.y, n.y * s.z, n.z * s.z,
+                                 c.touching ? 1.0 : 0.0, atWall ? c.liquid : 0.5 * c.liquid}};
+                const auto add = [own = Pack::load(one.points.data())](Eight& sum) {
+                    (Pack::load(sum.points.data()) + own).store(sum.points.data());
                 };
-                if (ownFirst) add(c.first);
-                if (ownSecond) add(c.second);
+                if (ownFirst) add(ofGrains[c.first]);
+                if (ownSecond) add(ofGrains[c.second]);
             }
         },
         1024);
 }
 
+/// Finds within which box (m) the grid sees a body by itself alone: no image of it, and all of it.
+void FieldSums::findAlone(const PeriodicBox& periodic) {
+    const Place periods = partsOf(periodic.length);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const bool resolved = points.isResolved(axis);
+        const double reach = resolved ? weight.cutOff() : 0;
+        aloneLow[axis] = resolved && periods[axis] == 0 ? -infinity : points.low(axis) - reach;
+        aloneHigh[axis] = resolved && periods[axis] == 0 ? infinity : points.high(axis) + reach;
+        if (points.isCylindrical() || (periods[axis] > 0 && aloneHigh[axis] - aloneLow[axis] > periods[axis]))
+            aloneHigh[axis] = -infinity;
+    }
+}
+
+[[gnu::always_inline]] inline bool FieldSums::isAlone(const Vector<double>& one,
+                                                      const Vector<double>& other) const {
+    const auto isWithin = [&](const Vector<double>& p) {
+        return p.x >= aloneLow[0] && p.x < aloneHigh[0] && p.y >= aloneLow[1] && p.y < aloneHigh[1] &&
+               p.z >= aloneLow[2] && p.z < aloneHigh[2];
+    };
+    return isWithin(one) && isWithin(other);
+}
+
+/// The points along an axis that are within the cut-off of what reaches from `low` to `high` (m).
+[[gnu::always_inline]] inline FieldSums::Range FieldSums::pointsNear(double low, double high,
+                                                                     std::size_t axis) const {
+    const double n = static_cast<double>(points.counts()[axis]), start = points.low(axis),
+                 reach = weight.cutOff();
+    const double from = std::ceil((low - reach - start) * perLength[axis] - 0.5 - 1e-9),
+                 to = std::floor((high + reach - start) * perLength[axis] - 0.5 + 1e-9) + 1;
+    if (!(from < n && to > 0)) return {0, 0};
+    return {from > 0 ? static_cast<std::size_t>(from) : 0,
+            to < n ? static_cast<std::size_t>(to) : points.counts()[axis]};
+}
+
+[[gnu::always_inline]] inline FieldSums::Near FieldSums::nearAlong(double low, double high,
+                                                                   std::uint32_t group) const {
+    const Range near = pointsNear(low, high, order[2]);
+    const std::size_t before = group * points.counts()[order[2]];
+    return {static_cast<std::uint32_t>(before + near.begin), static_cast<std::uint32_t>(before + near.end)};
+}
+
 void FieldSums::addGrain(const GrainState& state, std::size_t number, Items& items) const {
     const GrainState::Grain& grain = state.grains[number];
+    if (isAlone(grain.position, grain.position))
+        return addGrainAt(grain.position, grain.velocity, grain, number, items);
     forImages(state.periodic, grain.position, grain.position,
               [&](const Vector<double>& shift, const Vector<double>& ofImage) {
-                  const Vector<double> position = grain.position + shift;
-                  PointItem item{partsOf(position), kinds.of(grain), {}};
-                  Vector<double> velocity = grain.velocity + ofImage;
-                  std::array<double, 8> own{};
-                  if (hasContacts()) own = ofGrains[number];
-                  if (points.isCylindrical()) {
-                      const RoundFrame frame(position.x - points.centre().x, position.y - points.centre().y);
-                      item.at[0] = frame.r;
-                      velocity = frame.turned(velocity);
-                      // Fabric about the new axes: T' = Q T Q^T.
-                      const std::array<double, 8> f = own;
-                      const Vector<double> rows[] = {frame.turned({f[0], f[1], f[2]}),
-                                                     frame.turned({f[1], f[3], f[4]}),
-                                                     frame.turned({f[2], f[4], f[5]})};
-                      const Vector<double> a = frame.turned({rows[0].x, rows[1].x, rows[2].x}),
-                                           b = frame.turned({rows[0].y, rows[1].y, rows[2].y}),
-                                           c = frame.turned({rows[0].z, rows[1].z, rows[2].z});
-                      own = {a.x, a.y, a.z, b.y, b.z, c.z, f[6], f[7]};
-                  }
-                  auto& values = item.values;
-                  values[Number] = 1;
-                  values[Volume] = sphereVolume(grain.radius);
-                  values[Mass] = grain.mass;
-                  values[Momentum] = grain.mass * velocity.x;
-                  values[Momentum + 1] = grain.mass * velocity.y;
-                  values[Momentum + 2] = grain.mass * velocity.z;
-                  addSquare(grain.mass, velocity, values.data() + Flux);
-                  std::copy(own.begin(), own.end(), values.begin() + Fabric);
-                  values[Liquid] += grain.liquid;
-                  items.grains.push_back(item);
+                  addGrainAt(grain.position + shift, grain.velocity + ofImage, grain, number, items);
               });
 }
 
+/// A grain or an image of it, with its position (m) and velocity (m/s).
+void FieldSums::addGrainAt(const Vector<double>& position, Vector<double> velocity,
+                           const GrainState::Grain& grain, std::size_t number, Items& items) const {
+    const std::uint32_t group = kinds.of(grain);
+    Near near{0, 0};
+    if (isAlongAxis()) {
+        const double at = partsOf(position)[order[2]];
+        near = nearAlong(at, at, group);
+        if (near.begin == near.end) return;
+    }
+    PointItem& item = items.grains.emplace_back();
+    item.at = partsOf(position), item.group = group, item.near = near;
+    const double volume = sphereVolume(grain.radius);
+    std::array<double, 8> own{};
+    if (hasContacts()) {
+        own = ofGrains[number].points;
+        for (std::size_t k = 0; k < 6; ++k) own[k] *= volume;
+    }
+    if (points.isCylindrical()) {
+        const RoundFrame frame(position.x - points.centre().x, position.y - points.centre().y);
+        item.at[0] = frame.r;
+        velocity = frame.turned(velocity);
+        // Fabric about the new axes: T' = Q T Q^T.
+        const std::array<double, 8> f = own;
+        const Vector<double> rows[] = {frame.turned({f[0], f[1], f[2]}), frame.turned({f[1], f[3], f[4]}),
+                                       frame.turned({f[2], f[4], f[5]})};
+        const Vector<double> a = frame.turned({rows[0].x, rows[1].x, rows[2].x}),
+                             b = frame.turned({rows[0].y, rows[1].y, rows[2].y}),
+                             c = frame.turned({rows[0].z, rows[1].z, rows[2].z});
+        own = {a.x, a.y, a.z, b.y, b.z, c.z, f[6], f[7]};
+    }
+    auto& values = item.values;
+    values[Number] = 1;
+    values[Volume] = volume;
+    values[Mass] = grain.mass;
+    values[Momentum] = grain.mass * velocity.x;
+    values[Momentum + 1] = grain.mass * velocity.y;
+    values[Momentum + 2] = grain.mass * velocity.z;
+    addSquare(grain.mass, velocity, values.data() + Flux);
+    std::copy(own.begin(), own.end(), values.begin() + Fabric);
+    values[Liquid] += grain.liquid;
+}
+
+/// A part of a branch (m) from a place on. @param share of the branch; @param force N
+[[gnu::always_inline]] inline void FieldSums::addAxisLine(const Vector<double>& from,
+                                                          const Vector<double>& branch, double share,
+                                                          const Vector<double>& force,
+                                                          const std::array<double, 6>& adhesive,
+                                                          std::uint32_t group, Items& items) const {
+    const double start = partsOf(from)[order[2]], way = share * partsOf(branch)[order[2]];
+    const Near near = nearAlong(std::min(start, start + way), std::max(start, start + way), group);
+    if (near.begin == near.end) return;
+    items.along.push_back({start, way, partsOf(share * force), partsOf(branch), near});
+    if (!items.isAdhesive) return;
+    items.adhesive.resize(items.along.size());
+    for (std::size_t k = 0; k < 6; ++k) items.adhesive.back()[k] = share * adhesive[k];
+}
+
 /// A line from `end` + branch, where the force acts on the grain, back to `end`.
-void FieldSums::addLine(const GrainState& state, Vector<double> end, Vector<double> branch,
-                        const GrainState::Contact& contact, std::uint32_t group, Items& items) const {
+void FieldSums::addLine(const GrainState& state, const Vector<double>& end, const Vector<double>& branch,
+                        std::size_t number, std::uint32_t group, Items& items) const {
+    const GrainState::Contact& contact = state.contacts[number];
+    std::array<double, 6> adhesive{};
+    if (contact.adhesiveForce != 0) {
+        if (state.branches.empty()) {
+            addSquare(-contact.adhesiveForce * norm(branch) / squaredNorm(contact.shift), contact.shift,
+                      adhesive.data());
+        } else {
+            const bool hasNormal = !state.shapes.empty() && state.shapes[number].normal;
+            addSymmetric(hasNormal ? contact.adhesiveForce * *state.shapes[number].normal
+                                   : (contact.adhesiveForce / norm(contact.shift)) * contact.shift,
+                         branch, adhesive.data());
+        }
+        items.isAdhesive = true;
+    }
+    const Vector<double> other = end + branch;
+    if (isAlongAxis() && isAlone(end, other))
+        return addAxisLine(end, branch, 1, contact.force, adhesive, group, items);
+    const Vector<double> low{std::min(end.x, other.x), std::min(end.y, other.y), std::min(end.z, other.z)},
+        high{std::max(end.x, other.x), std::max(end.y, other.y), std::max(end.z, other.z)};
     const Place b = partsOf(branch), f = partsOf(contact.force);
     std::array<double, 15> values{};
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) values[3 * i + j] = f[i] * b[j];
-    if (contact.adhesiveForce != 0) {
-        if (state.branches.empty())
-            addSquare(-contact.adhesiveForce * norm(branch) / squaredNorm(contact.shift), contact.shift,
-                      values.data() + 9);
-        else
-            addSymmetric(contact.normal ? contact.adhesiveForce * *contact.normal
-                                        : (contact.adhesiveForce / norm(contact.shift)) * contact.shift,
-                         branch, values.data() + 9);
-        items.isAdhesive = true;
-    }
-    const Vector<double> other = end + branch;
-    const Vector<double> low{std::min(end.x, other.x), std::min(end.y, other.y), std::min(end.z, other.z)},
-        high{std::max(end.x, other.x), std::max(end.y, other.y), std::max(end.z, other.z)};
+    std::copy(adhesive.begin(), adhesive.end(), values.begin() + 9);
     forImages(state.periodic, low, high, [&](const Vector<double>& shift, const Vector<double>&) {
         const Place from = partsOf(end + shift);
         // The part of the line within the box, in the directions that are averaged over.
@@ -307,9 +405,12 @@ void FieldSums::addLine(const GrainState& state, Vector<double> end, Vector<doub
             stop = std::min(stop, std::max(one, two));
         }
         if (!(begin < stop)) return;
+        const Vector<double> start = end + shift + begin * branch;
+        if (isAlongAxis())
+            return addAxisLine(start, branch, stop - begin, contact.force, adhesive, group, items);
         std::array<double, 15> part = values;
         for (double& value : part) value *= stop - begin;
-        const Vector<double> start = end + shift + begin * branch, way = (stop - begin) * branch;
+        const Vector<double> way = (stop - begin) * branch;
         if (points.isCylindrical()) return addRoundLine(start, way, part, group, items);
         LineItem line{partsOf(start), partsOf(way), 0, group, part};
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -330,7 +431,7 @@ void FieldSums::addRoundLine(const Vector<double>& end, const Vector<double>& br
     for (const QuadratureNode& node : gaussLegendre(count)) {
         const Vector<double> at = end + 0.5 * (1 + node.position) * branch;
         const RoundFrame frame(at.x - points.centre().x, at.y - points.centre().y);
-        PointItem item{{frame.r, 0, at.z}, group, {}};
+        PointItem item{.at = {frame.r, 0, at.z}, .group = group, .values = {}};
         const Vector<double> columns[] = {frame.turned({values[0], values[3], values[6]}),
                                           frame.turned({values[1], values[4], values[7]}),
                                           frame.turned({values[2], values[5], values[8]})};
@@ -354,7 +455,7 @@ void FieldSums::addRoundLine(const Vector<double>& end, const Vector<double>& br
 void FieldSums::addTraction(const GrainState& state, const Vector<double>& end, const Vector<double>& on,
                             std::uint32_t group, Items& items) const {
     forImages(state.periodic, end, end, [&](const Vector<double>& shift, const Vector<double>&) {
-        PointItem item{partsOf(end + shift), group, {}};
+        PointItem item{.at = partsOf(end + shift), .group = group, .values = {}};
         Vector<double> force = on;
         if (points.isCylindrical()) {
             const RoundFrame frame(end.x - points.centre().x, end.y - points.centre().y);
@@ -374,27 +475,27 @@ void FieldSums::addContact(const GrainState& state, std::size_t number, Items& i
     if (!state.branches.empty()) {
         const auto& [toFirst, toSecond] = state.branches[number];
         const Vector<double> point = first.position - toFirst;
-        addLine(state, point, toFirst, contact, group, items);
+        addLine(state, point, toFirst, number, group, items);
         if (atWall) return addTraction(state, point, contact.force, group, items);
-        addLine(state, point + toSecond, -toSecond, contact, kinds.of(state.grains[contact.second]), items);
+        addLine(state, point + toSecond, -toSecond, number, kinds.of(state.grains[contact.second]), items);
         return;
     }
     const Vector<double> end = first.position + contact.shift;
     if (atWall) {
-        addLine(state, end, -contact.shift, contact, group, items);
+        addLine(state, end, -contact.shift, number, group, items);
         return addTraction(state, end, contact.force, group, items);
     }
     const GrainState::Grain& second = state.grains[contact.second];
     const std::uint32_t other = kinds.of(second);
     if (other == group) {
-        addLine(state, end, -contact.shift, contact, group, items);
+        addLine(state, end, -contact.shift, number, group, items);
         return;
     }
     // The point in the middle of the overlap or of the gap, as a fraction of the shift.
     const double length = norm(contact.shift);
     const double middle = (first.radius + 0.5 * (length - first.radius - second.radius)) / length;
-    addLine(state, first.position + middle * contact.shift, -middle * contact.shift, contact, group, items);
-    addLine(state, end, (middle - 1) * contact.shift, contact, other, items);
+    addLine(state, first.position + middle * contact.shift, -middle * contact.shift, number, group, items);
+    addLine(state, end, (middle - 1) * contact.shift, number, other, items);
 }
 
 /// Adds phi times the values to the sums from `first` on, at all points within the cut-off of a box.
@@ -406,13 +507,10 @@ void FieldSums::overPoints(const Place& low, const Place& high, std::size_t firs
     for (std::size_t place = 0; place < 3; ++place) {
         const std::size_t axis = order[place];
         if (!points.isResolved(axis)) continue;
-        const double n = static_cast<double>(points.counts()[axis]), start = points.low(axis),
-                     reach = weight.cutOff();
-        const double from = std::ceil((low[axis] - reach - start) * perLength[axis] - 0.5 - 1e-9),
-                     to = std::floor((high[axis] + reach - start) * perLength[axis] - 0.5 + 1e-9) + 1;
-        if (!(from < n && to > 0)) return;
-        begin[place] = from > 0 ? static_cast<std::size_t>(from) : 0;
-        end[place] = to < n ? static_cast<std::size_t>(to) : points.counts()[axis];
+        const Range near = pointsNear(low[axis], high[axis], axis);
+        if (near.begin == near.end) return;
+        begin[place] = near.begin;
+        end[place] = near.end;
     }
     std::size_t firstBlock = begin[2] / Pack::lanes, lastBlock = (end[2] + Pack::lanes - 1) / Pack::lanes;
     const int dimensions = points.dimensions();
@@ -497,12 +595,6 @@ void FieldSums::spread(const LineItem& line, const Slab& slab) const {
         high[axis] = line.from[axis] + std::max(line.branch[axis], 0.0);
         unit[axis] = line.branch[axis] / line.length;
     }
-    if (points.dimensions() == 1) {
-        const auto inOne = [&](double, double, const Pack& inner) {
-            return weight.lineMean((inner - line.from[order[2]]) * unit[order[2]], Pack(0.0), line.length);
-        };
-        return overPoints<size>(low, high, first, line.group, line.values.data(), slab, inOne);
-    }
     const auto phi = [&](double outer, double middle, const Pack& inner) {
         const Pack zero(0.0);
         const Vector<Pack> d{points.isResolved(order[0]) ? Pack(outer - line.from[order[0]]) : zero,
@@ -519,18 +611,109 @@ void FieldSums::spread(const LineItem& line, const Slab& slab) const {
     overPoints<size>(low, high, first, line.group, line.values.data(), slab, phi);
 }
 
+/// By their first points, and of one first point in the order in which they came.
+template <class Item>
+void FieldSums::sortByPoints(const std::vector<Item>& items, std::vector<std::uint32_t>& sorted) const {
+    std::vector<std::uint32_t> places(kinds.size() * points.counts()[order[2]] + 1);
+    for (const Item& item : items) ++places[item.near.begin + 1];
+    std::partial_sum(places.begin(), places.end(), places.begin());
+    sorted.resize(items.size());
+    for (std::uint32_t k = 0; k < items.size(); ++k) sorted[places[items[k].near.begin]++] = k;
+}
+
+/// Adds weights times values to the sums from `first` on where one axis is resolved. Items that begin at the
+/// same point are added up in registers.
+/// @param weights (item, places of eight points, m) phi there; @param carry (item, phi, totals) adds phi
+/// times the values
+template <std::size_t first, std::size_t size, class Item, class Weights, class Carry>
+void FieldSums::spreadSorted(const std::vector<Item>& all, const std::vector<std::uint32_t>& sorted,
+                             const Slab& slab, Weights&& weights, Carry&& carry) const {
+    const std::size_t n = points.counts()[order[2]];
+    for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
+        const std::uint32_t start = all[sorted[begin]].near.begin;
+        std::uint32_t stop = start;  // behind the last point of all
+        for (end = begin; end < sorted.size() && all[sorted[end]].near.begin == start; ++end)
+            stop = std::max(stop, all[sorted[end]].near.end);
+        for (std::uint32_t eight = start; eight < stop; eight += Pack::lanes) {
+            const std::size_t point = eight % n, group = eight / n;
+            std::array<double, Pack::lanes> along;
+            std::copy_n(places[2].data() + point, Pack::lanes, along.data());
+            const Pack inner = Pack::fromLanes(along);
+            std::array<Pack, size> totals;
+            forEachIndex<size>([&](auto k) { totals[k] = Pack(0.0); });
+            for (std::size_t k = begin; k < end; ++k)
+                if (all[sorted[k]].near.end > eight) carry(sorted[k], weights(sorted[k], inner), totals);
+            Eight* const block = slab.sums + (group * blocks + point / Pack::lanes) * stored + first;
+            const std::size_t left = point % Pack::lanes,
+                              within = std::min<std::size_t>(Pack::lanes, n - point);
+            forEachIndex<size>([&](auto k) {
+                const std::array<double, Pack::lanes> own = totals[k].toLanes();
+                for (std::size_t lane = 0; lane < within; ++lane) {
+                    const std::size_t at = left + lane;
+                    block[at / Pack::lanes * stored + k].points[at % Pack::lanes] += own[lane];
+                }
+            });
+        }
+    }
+}
+
+void FieldSums::spreadAlongAxis(Items& of, const Slab& slab) const {
+    sortByPoints(of.grains, of.order);
+    const auto atGrain = [&](std::uint32_t item, const Pack& inner) {
+        const Pack d = inner - of.grains[item].at[order[2]];
+        return weight.value(d * d);
+    };
+    const auto ofGrain = [&](std::uint32_t item, const Pack& phi, auto& totals) {
+        constexpr std::size_t size = std::tuple_size_v<std::remove_reference_t<decltype(totals)>>;
+        forEachIndex<size>([&](auto k) { totals[k] = fma(phi, Pack(of.grains[item].values[k]), totals[k]); });
+    };
+    if (hasContacts()) spreadSorted<Number, 20>(of.grains, of.order, slab, atGrain, ofGrain);
+    else spreadSorted<Number, countWithoutContacts>(of.grains, of.order, slab, atGrain, ofGrain);
+    sortByPoints(of.along, of.order);
+    const auto onLine = [&](std::uint32_t item, const Pack& inner) {
+        const AxisLine& line = of.along[item];
+        const Pack d = inner - line.from;
+        const double length = std::abs(line.way);
+        if (length >= weight.shortestLine()) return weight.lineMean(line.way > 0 ? d : -d, Pack(0.0), length);
+        Pack mean(0.0);
+        for (const QuadratureNode& node : gaussLegendre(3)) {
+            const Pack way = d - 0.5 * (1 + node.position) * line.way;
+            mean += 0.5 * node.weight * weight.value(way * way);
+        }
+        return mean;
+    };
+    const auto ofLine = [&](std::uint32_t item, const Pack& phi, auto& totals) {
+        const AxisLine& line = of.along[item];
+        forEachIndex<9>(
+            [&](auto k) { totals[k] = fma(phi * line.left[k / 3], Pack(line.right[k % 3]), totals[k]); });
+    };
+    if (!of.isAdhesive) {
+        spreadSorted<ContactStress, 9>(of.along, of.order, slab, onLine, ofLine);
+    } else {
+        spreadSorted<ContactStress, 15>(
+            of.along, of.order, slab, onLine, [&](std::uint32_t item, const Pack& phi, auto& totals) {
+                ofLine(item, phi, totals);
+                forEachIndex<6>(
+                    [&](auto k) { totals[9 + k] = fma(phi, Pack(of.adhesive[item][k]), totals[9 + k]); });
+            });
+    }
+    for (const PointItem& item : of.tractions)
+        spread<Traction, 3>(item.at, item.group, item.values.data(), slab);
+}
+
 void FieldSums::Items::clear() {
-    grains.clear(), tractions.clear(), lines.clear(), nodes.clear();
+    grains.clear(), tractions.clear(), lines.clear(), nodes.clear(), along.clear(), adhesive.clear();
     isAdhesive = false;
 }
 
-void FieldSums::makeItems(const GrainState& state, std::size_t share, Items& of) const {
+void FieldSums::makeItems(const GrainState& state, std::size_t share, std::size_t sharesOfAll,
+                          Items& of) const {
     of.clear();
     const std::size_t grains = state.grains.size(), contacts = state.contacts.size();
-    for (std::size_t k = grains * share / shares; k < grains * (share + 1) / shares; ++k)
+    for (std::size_t k = grains * share / sharesOfAll; k < grains * (share + 1) / sharesOfAll; ++k)
         addGrain(state, k, of);
     if (!hasContacts()) return;
-    for (std::size_t k = contacts * share / shares; k < contacts * (share + 1) / shares; ++k)
+    for (std::size_t k = contacts * share / sharesOfAll; k < contacts * (share + 1) / sharesOfAll; ++k)
         addContact(state, k, of);
 }
 
@@ -561,35 +744,47 @@ void FieldSums::refuseMovingImages(const FieldGrid& grid, const PeriodicBox& per
             "(setLeesEdwards(), setStrainRate(), setTargetStress()); take coordinates of X, Y and Z.");
 }
 
+/// Each share has its own sums, and is summed as soon as it is made.
+void FieldSums::addByShares(const GrainState& state, int threads, std::size_t sharesOfAll) {
+    items.resize(static_cast<std::size_t>(std::max(threads, 1)));
+    sumsOfShares.resize(sharesOfAll);
+    inParts(sharesOfAll, threads, [&](int thread, std::size_t begin, std::size_t end) {
+        for (std::size_t share = begin; share < end; ++share) {
+            Items& own = items[static_cast<std::size_t>(thread)];
+            makeItems(state, share, sharesOfAll, own);
+            sumsOfShares[share].assign(sums.size(), Eight{});
+            const Slab slab{0, slabLength(), sumsOfShares[share].data()};
+            if (isAlongAxis()) spreadAlongAxis(own, slab);
+            else spread(own, slab);
+        }
+    });
+    for (const std::vector<Eight>& ofShare : sumsOfShares)
+        for (std::size_t k = 0; k < sums.size(); ++k)
+            for (std::size_t lane = 0; lane < Pack::lanes; ++lane)
+                sums[k].points[lane] += ofShare[k].points[lane];
+}
+
+/// All shares are made, and then each thread sums what falls into its part of the grid.
+void FieldSums::addBySlabs(const GrainState& state, int threads) {
+    items.resize(shares);
+    inParts(shares, threads, [&](int, std::size_t begin, std::size_t end) {
+        for (std::size_t share = begin; share < end; ++share) makeItems(state, share, shares, items[share]);
+    });
+    inParts(slabLength(), threads, [&](int, std::size_t begin, std::size_t end) {
+        for (const Items& ofShare : items) spread(ofShare, {begin, end, sums.data()});
+    });
+}
+
 void FieldSums::add(const GrainState& state, int threads) {
     refuseMovingImages(points, state.periodic);
+    findAlone(state.periodic);
     if (hasContacts()) gatherContactsOfGrains(state, threads);
-    // Whether the sums are few goes by the points, so that fields of grains are the same bits with and
-    // without those of contacts.
-    const bool isSmall = sums.size() / stored * count <= fewSums;
-    items.resize(isSmall ? static_cast<std::size_t>(std::max(threads, 1)) : shares);
-    if (isSmall) {
-        sumsOfShares.resize(shares);
-        inParts(shares, threads, [&](int thread, std::size_t begin, std::size_t end) {
-            for (std::size_t share = begin; share < end; ++share) {
-                Items& own = items[static_cast<std::size_t>(thread)];
-                makeItems(state, share, own);
-                sumsOfShares[share].assign(sums.size(), Eight{});
-                spread(own, {0, slabLength(), sumsOfShares[share].data()});
-            }
-        });
-        for (const std::vector<Eight>& ofShare : sumsOfShares)
-            for (std::size_t k = 0; k < sums.size(); ++k)
-                for (std::size_t lane = 0; lane < Pack::lanes; ++lane)
-                    sums[k].points[lane] += ofShare[k].points[lane];
-    } else {
-        inParts(shares, threads, [&](int, std::size_t begin, std::size_t end) {
-            for (std::size_t share = begin; share < end; ++share) makeItems(state, share, items[share]);
-        });
-        inParts(slabLength(), threads, [&](int, std::size_t begin, std::size_t end) {
-            for (const Items& ofShare : items) spread(ofShare, {begin, end, sums.data()});
-        });
-    }
+    // Into how many shares goes by the points, so that fields of grains are the same bits with and without
+    // those of contacts.
+    const std::size_t size = sums.size() / stored * count;
+    if (size <= fewSums || isAlongAxis())
+        addByShares(state, threads, std::clamp(fewSums * shares / size, std::size_t{1}, shares));
+    else addBySlabs(state, threads);
     ++added;
 }
 

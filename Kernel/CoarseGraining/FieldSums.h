@@ -24,9 +24,13 @@ public:
     [[nodiscard]] std::size_t size() const { return names.size(); }
     [[nodiscard]] const std::string& nameOf(std::size_t group) const { return names[group]; }
     /// 0 for species beyond those given.
-    [[nodiscard]] std::uint32_t of(const GrainState::Grain& grain) const;
+    [[nodiscard]] std::uint32_t of(const GrainState::Grain& grain) const {
+        return names.size() == 1 ? 0 : amongSeveral(grain);
+    }
 
 private:
+    [[nodiscard]] std::uint32_t amongSeveral(const GrainState::Grain& grain) const;
+
     std::vector<std::string> names{""};
     std::vector<double> edges;  // m, diameters
     bool species = false;
@@ -93,9 +97,14 @@ public:
     void setNumbers(const std::vector<double>& numbers, std::size_t states);
 
 private:
+    /// The points within the cut-off, where one axis is resolved: behind those of all groups before.
+    struct Near {
+        std::uint32_t begin, end;
+    };
     struct PointItem {
         std::array<double, 3> at;  // m
         std::uint32_t group;
+        Near near{0, 0};
         std::array<double, 20> values;
     };
     /// A straight line from `from` over `branch`, both in the resolved directions only.
@@ -105,11 +114,21 @@ private:
         std::uint32_t group;
         std::array<double, 15> values;
     };
+    /// A straight line along the only axis that is resolved, and what it carries: f b, of each number of
+    /// `left` with each of `right`.
+    struct AxisLine {
+        double from, way;                   // m
+        std::array<double, 3> left, right;  // N; m
+        Near near;
+    };
     /// What a part of a state adds; kept, because memory that is new each time takes longer than to fill it.
     struct Items {
         std::vector<PointItem> grains, tractions;
         std::vector<LineItem> lines;
-        std::vector<PointItem> nodes;  // of lines around an axis: 15 values
+        std::vector<PointItem> nodes;                 // of lines around an axis: 15 values
+        std::vector<AxisLine> along;                  // in place of lines where one axis is resolved
+        std::vector<std::array<double, 6>> adhesive;  // N m, of these lines, where any has it
+        std::vector<std::uint32_t> order;             // of grains, then of lines, by their first points
         bool isAdhesive = false;
 
         void clear();
@@ -123,19 +142,42 @@ private:
         std::size_t begin, end;
         Eight* sums;
     };
-    /// Into how many shares grains and contacts are divided, whatever the number of threads.
+    /// Into how many shares grains and contacts are divided, whatever the number of threads: fewer where
+    /// there are many points along one axis.
     static constexpr std::size_t shares = 32;
-    /// Up to so many sums (64 kB) each share has its own, and is summed as soon as it is made.
+    /// Up to so many sums (64 kB) each share has its own, and always where one axis is resolved.
     static constexpr std::size_t fewSums = 1024;
 
     void gatherContactsOfGrains(const GrainState& state, int threads);
-    void makeItems(const GrainState& state, std::size_t share, Items& items) const;
+    void addByShares(const GrainState& state, int threads, std::size_t sharesOfAll);
+    void addBySlabs(const GrainState& state, int threads);
+    void makeItems(const GrainState& state, std::size_t share, std::size_t sharesOfAll, Items& items) const;
     void addGrain(const GrainState& state, std::size_t number, Items& items) const;
+    void addGrainAt(const Vector<double>& position, Vector<double> velocity, const GrainState::Grain& grain,
+                    std::size_t number, Items& items) const;
     void addContact(const GrainState& state, std::size_t number, Items& items) const;
     void addTraction(const GrainState& state, const Vector<double>& point, const Vector<double>& force,
                      std::uint32_t group, Items& items) const;
-    void addLine(const GrainState& state, Vector<double> end, Vector<double> branch,
-                 const GrainState::Contact& contact, std::uint32_t group, Items& items) const;
+    void addLine(const GrainState& state, const Vector<double>& end, const Vector<double>& branch,
+                 std::size_t number, std::uint32_t group, Items& items) const;
+    void addAxisLine(const Vector<double>& from, const Vector<double>& branch, double share,
+                     const Vector<double>& force, const std::array<double, 6>& adhesive, std::uint32_t group,
+                     Items& items) const;
+    void findAlone(const PeriodicBox& periodic);
+    /// Whether a straight line between two places is seen alone.
+    [[nodiscard]] bool isAlone(const Vector<double>& one, const Vector<double>& other) const;
+    struct Range {
+        std::size_t begin, end;
+    };
+    [[nodiscard]] Range pointsNear(double low, double high, std::size_t axis) const;
+    [[nodiscard]] Near nearAlong(double low, double high, std::uint32_t group) const;
+    template <class Item>
+    void sortByPoints(const std::vector<Item>& items, std::vector<std::uint32_t>& order) const;
+    template <std::size_t first, std::size_t size, class Item, class Weights, class Carry>
+    void spreadSorted(const std::vector<Item>& items, const std::vector<std::uint32_t>& order,
+                      const Slab& slab, Weights&& weights, Carry&& carry) const;
+    void spreadAlongAxis(Items& items, const Slab& slab) const;
+    [[nodiscard]] bool isAlongAxis() const { return points.dimensions() == 1 && !points.isCylindrical(); }
     void addRoundLine(const Vector<double>& end, const Vector<double>& branch,
                       const std::array<double, 15>& values, std::uint32_t group, Items& items) const;
     void spread(const Items& items, const Slab& slab) const;
@@ -160,14 +202,15 @@ private:
     FieldGrid points;
     SmoothingKernel weight;
     GrainGroups kinds;
-    std::size_t stored;                           // sums of a point
-    std::array<std::size_t, 3> order{0, 1, 2};    // of axes: the last one is stored in blocks of eight
-    std::size_t blocks = 1;                       // of a row
-    std::array<std::vector<double>, 3> places;    // m, of the points along each of `order`
-    std::array<double, 3> perLength{};            // 1/m, of points along each axis
-    std::vector<Eight> sums;                      // of a group, row, block: each sum
-    std::vector<std::array<double, 8>> ofGrains;  // fabric, contacts, liquid
-    std::vector<Items> items;                     // of shares, or of threads
+    std::size_t stored;                             // sums of a point
+    std::array<std::size_t, 3> order{0, 1, 2};      // of axes: the last one is stored in blocks of eight
+    std::size_t blocks = 1;                         // of a row
+    std::array<std::vector<double>, 3> places;      // m, of the points along each of `order`
+    std::array<double, 3> perLength{};              // 1/m, of points along each axis
+    std::array<double, 3> aloneLow{}, aloneHigh{};  // m, of a state: see findAlone()
+    std::vector<Eight> sums;                        // of a group, row, block: each sum
+    std::vector<Eight> ofGrains;                    // fabric over its volume, contacts, liquid
+    std::vector<Items> items;                       // of shares, or of threads
     std::vector<std::vector<Eight>> sumsOfShares;
     std::size_t added = 0;
 };

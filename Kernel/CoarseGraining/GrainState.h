@@ -33,9 +33,11 @@ struct GrainState {
         double adhesiveForce = 0;     // N, attraction positive
         double liquid = 0;            // m^3, of the bridge
         bool touching = true;
-        /// m, from the centre of the first to the contact, where grains may be no spheres
-        std::optional<Vector<double>> toPoint{};
-        /// Unit, from the first to the second, where grains may be no spheres; else that of the shift.
+    };
+    /// What a contact has besides where grains may be no spheres.
+    struct Shape {
+        Vector<double> toPoint;  // m, from the centre of the first to the contact
+        /// Unit, from the first to the second; else that of the shift.
         std::optional<Vector<double>> normal{};
     };
 
@@ -48,6 +50,7 @@ struct GrainState {
     double time = 0;  // s
     std::vector<Grain> grains;
     std::vector<Contact> contacts;
+    std::vector<Shape> shapes;       // of each contact; empty where all grains are spheres
     std::vector<Branches> branches;  // of each contact; empty without rigid bodies
     PeriodicBox periodic;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Contacts/GrainMasses.h"
+#include "Kernel/Contacts/Prefetch.h"
 #include "Kernel/Output/PolyData.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Particles/ParticleStore.h"
@@ -40,8 +42,9 @@ Vector<double> vectorAt(const PolyDataField& field, std::size_t k) {
 
 /// The way (m) from the centre of the first grain to the point of a contact: in the middle of the overlap or
 /// of the gap, at a wall on its surface.
-Vector<double> toPoint(const GrainState& state, const GrainState::Contact& contact) {
-    if (contact.toPoint) return *contact.toPoint;
+Vector<double> toPoint(const GrainState& state, std::size_t number) {
+    if (!state.shapes.empty()) return state.shapes[number].toPoint;
+    const GrainState::Contact& contact = state.contacts[number];
     if (contact.second == GrainState::Contact::wall) return contact.shift;
     const double length = norm(contact.shift), radius = state.grains[contact.first].radius,
                  gap = length - radius - state.grains[contact.second].radius;
@@ -86,8 +89,9 @@ void joinBodies(GrainState& state, const PolyData& grains) {
 void joinBodies(GrainState& state, std::span<const MemberState> members, std::span<const BodyState> bodies) {
     using Contact = GrainState::Contact;
     state.branches.clear();
-    for (const Contact& c : state.contacts) {
-        const Vector<double> point = toPoint(state, c);
+    for (std::size_t k = 0; k < state.contacts.size(); ++k) {
+        const Contact& c = state.contacts[k];
+        const Vector<double> point = toPoint(state, k);
         const Vector<double> toFirst = -members[c.first].arm - point;
         state.branches.push_back(
             {toFirst, c.second == Contact::wall ? -point : c.shift - members[c.second].arm - point});
@@ -124,30 +128,122 @@ void takeFlowAway(GrainState& state) {
 
 namespace {
 
-/// Appends the contacts that have a force and are those of the grain at a place, as their first body, in the
-/// order of its partners. Without a bridge between grains, what fields need is near at hand.
-/// @param number of the grain at each place, in GrainState
-void appendContacts(const ContactSystem& contacts, const ParticleStore& grains, std::uint32_t place,
-                    const std::vector<std::uint32_t>& number, std::vector<GrainState::Contact>& found) {
-    contacts.forEachActingOf(place, [&](const Bucket& bucket, std::uint32_t contact) {
-        if (contacts.firstOf(contact) != place) return;
-        const bool atWall = bucket.wall >= 0;
-        const std::uint32_t second = atWall ? GrainState::Contact::wall : number[contacts.secondOf(contact)];
-        if (!atWall && !contacts.isBridged(contact) && !contacts.laws().shapes()) {
+/// The contacts of a scene that have a force, for its state.
+class SceneContacts {
+public:
+    /// @param numbersOfGrains in the state, by place; @param atPlaces the places of these grains
+    SceneContacts(const ContactSystem& ofScene, const ParticleStore& store,
+                  const std::vector<std::uint32_t>& numbersOfGrains,
+                  const std::vector<std::uint32_t>& atPlaces, int threadCount)
+        : contacts(ofScene),
+          memory(ofScene.store()),
+          grains(store),
+          number(numbersOfGrains),
+          places(atPlaces),
+          threads(threadCount) {}
+
+    /// Puts them into the order of identities: of body 1, then of its partner. They are read as they lie in
+    /// memory, and written to where they belong: so little is waited for.
+    void putInto(GrainState& state) const {
+        std::size_t count = 0;
+        const std::vector<std::uint32_t> orders = ordersOfSlots(count);
+        const bool isShaped = contacts.laws().shapes() != nullptr;
+        state.contacts.resize(count);
+        if (isShaped) state.shapes.resize(count);
+        inParts(
+            orders.size() / Pack::lanes, threads,
+            [&](int, std::size_t begin, std::size_t end) {
+                constexpr std::size_t ahead = 16;
+                for (std::size_t slot = begin * Pack::lanes; slot < end * Pack::lanes; ++slot) {
+                    if (slot + ahead < orders.size() && orders[slot + ahead] != none)
+                        prefetch<true>(&state.contacts[orders[slot + ahead]], sizeof(GrainState::Contact));
+                    if (orders[slot] != none) put(static_cast<std::uint32_t>(slot), orders[slot], state);
+                }
+            },
+            128);
+    }
+
+private:
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+    /// Of each place in the memory: where its contact comes in the order of identities, if it has a force.
+    std::vector<std::uint32_t> ordersOfSlots(std::size_t& count) const {
+        constexpr std::size_t worthAThread = 1024;
+        const std::size_t parts = partsOf(places.size(), threads, worthAThread),
+                          slots = memory.memory.slotCount();
+        std::vector<std::size_t> firsts(parts + 1);
+        if (parts > 1)
+            inParts(
+                places.size(), threads,
+                [&](int part, std::size_t begin, std::size_t end) {
+                    firsts[static_cast<std::size_t>(part) + 1] =
+                        forEachOf(begin, end, 0, [](const auto&...) {});
+                },
+                worthAThread);
+        std::partial_sum(firsts.begin(), firsts.end(), firsts.begin());
+        // What no order is asked of has it behind all.
+        std::vector<std::uint32_t> orders(slots + parts, none);
+        inParts(
+            places.size(), threads,
+            [&](int part, std::size_t begin, std::size_t end) {
+                const std::size_t behind = slots + static_cast<std::size_t>(part);
+                const std::size_t last = forEachOf(
+                    begin, end, firsts[static_cast<std::size_t>(part)],
+                    [&](bool isFirst, std::uint32_t slot, bool acts, std::size_t order) {
+                        orders[isFirst ? slot : behind] = acts ? static_cast<std::uint32_t>(order) : none;
+                    });
+                if (static_cast<std::size_t>(part) + 1 == parts) count = last;
+            },
+            worthAThread);
+        orders.resize(slots);
+        return orders;
+    }
+    /// Calls give(is that of body 1, slot, has a force, order) for the sides of some grains, with numbers
+    /// from `order` on for those that are and have; returns the next one. No branch in it could be foreseen.
+    template <class Give>
+    std::size_t forEachOf(std::size_t begin, std::size_t end, std::size_t order, Give&& give) const {
+        constexpr std::size_t ahead = 16;
+        const std::size_t listed = memory.sides.grainCount();  // others came after the list
+        for (std::size_t k = begin; k < end; ++k) {
+            if (k + ahead < end && places[k + ahead] < listed)
+                prefetch(memory.sides.of(places[k + ahead]).data(), 64);
+            if (places[k] >= listed) continue;
+            for (const std::uint32_t side : memory.sides.of(places[k])) {
+                const bool isFirst = side % 2 == 0, acts = memory.acts(memory.contactAt(side / 2));
+                give(isFirst, side / 2, acts, order);
+                order += static_cast<std::size_t>(isFirst & acts);
+            }
+        }
+        return order;
+    }
+
+    /// Without a bridge between grains, what fields need is near at hand.
+    void put(std::uint32_t slot, std::uint32_t order, GrainState& state) const {
+        const std::uint32_t contact = memory.contactAt(slot), place = memory.firstOf(contact);
+        const bool atWall = contact / Pack::lanes >= memory.firstWallBlock();
+        const std::uint32_t second = atWall ? GrainState::Contact::wall : number[memory.secondOf(contact)];
+        const bool isShaped = !state.shapes.empty();
+        if (!atWall && !memory.isBridged(contact) && !isShaped) {
             const Vector<double> way =
-                grains.translation[contacts.secondOf(contact)].position - grains.translation[place].position;
-            found.push_back({number[place], second, contacts.periodicBox().nearest(way),
-                             contacts.forceOf(contact), 0, 0, contacts.touches(contact)});
+                grains.translation[memory.secondOf(contact)].position - grains.translation[place].position;
+            state.contacts[order] = {number[place],           second, state.periodic.nearest(way),
+                                     memory.forceOf(contact), 0,      0,
+                                     memory.touches(contact)};
             return;
         }
-        const ObservedContact seen = contacts.observe(grains, bucket, contact);
-        found.push_back({number[place], second, seen.shift, seen.force, seen.adhesiveForce, seen.bridgeVolume,
-                         seen.touching});
-        if (!contacts.laws().shapes()) return;
-        found.back().toPoint = seen.point - grains.translation[place].position;
-        found.back().normal = seen.normal();
-    });
-}
+        const ObservedContact seen =
+            contacts.observe(grains, memory.bucketOf(contact / Pack::lanes), contact);
+        state.contacts[order] = {number[place],     second,       seen.shift, seen.force, seen.adhesiveForce,
+                                 seen.bridgeVolume, seen.touching};
+        if (isShaped) state.shapes[order] = {seen.point - grains.translation[place].position, seen.normal()};
+    }
+
+    const ContactSystem& contacts;
+    const ContactStore& memory;
+    const ParticleStore& grains;
+    const std::vector<std::uint32_t>&number, &places;
+    int threads;
+};
 
 /// Puts the rigid bodies of a scene in the place of their grains.
 /// @param places of the grains, in the order of the state
@@ -173,7 +269,8 @@ void joinBodies(GrainState& state, const ParticleStore& grains, const std::vecto
 void takeState(const Scene& scene, GrainState& state, FieldContent content) {
     scene.contacts().ranks().requireAllGrains("fields");
     const ParticleStore& grains = scene.particleHandler.store();
-    state.grains.clear(), state.contacts.clear(), state.branches.clear();
+    state.shapes.clear(), state.branches.clear();
+    if (content == FieldContent::WithoutContacts) state.contacts.clear();
     state.time = scene.getTime();
     state.periodic = scene.contacts().periodicBox();
     const GrainColumn* film = nullptr;
@@ -188,6 +285,9 @@ void takeState(const Scene& scene, GrainState& state, FieldContent content) {
         places.size(), threads,
         [&](int, std::size_t begin, std::size_t end) {
             for (std::size_t k = begin; k < end; ++k) {
+                constexpr std::size_t ahead = 16;
+                if (k + ahead < end)
+                    prefetch(&grains.translation[places[k + ahead]], sizeof(TranslationRecord));
                 const std::uint32_t place = places[k];
                 const TranslationRecord& grain = grains.translation[place];
                 number[place] = static_cast<std::uint32_t>(k);
@@ -201,18 +301,7 @@ void takeState(const Scene& scene, GrainState& state, FieldContent content) {
         },
         1024);
     if (content == FieldContent::WithoutContacts) return joinBodies(state, grains, places);
-    // Each thread takes the contacts whose first body is one of its grains; put together they are in the
-    // order of identities.
-    std::vector<std::vector<GrainState::Contact>> ofOthers(static_cast<std::size_t>(std::max(threads, 1)));
-    inParts(
-        places.size(), threads,
-        [&](int part, std::size_t begin, std::size_t end) {
-            auto& own = part == 0 ? state.contacts : ofOthers[static_cast<std::size_t>(part)];
-            for (std::size_t k = begin; k < end; ++k)
-                appendContacts(scene.contacts(), grains, places[k], number, own);
-        },
-        1024);
-    for (const auto& own : ofOthers) state.contacts.insert(state.contacts.end(), own.begin(), own.end());
+    SceneContacts(scene.contacts(), grains, number, places, threads).putInto(state);
     joinBodies(state, grains, places);
 }
 
@@ -273,8 +362,8 @@ GrainState stateOf(const PolyData& grains, const PolyData& contacts, const Perio
                                   periodic.nearest(cornerOf(2 * k + 1) - cornerOf(2 * k)), vectorAt(force, k),
                                   adhesive.at(k), volume ? volume->at(k) : 0, overlap.at(k) >= 0});
         if (point)
-            state.contacts.back().toPoint =
-                periodic.nearest(vectorAt(*point, k) - grains.points[state.contacts.back().first]);
+            state.shapes.push_back(
+                {periodic.nearest(vectorAt(*point, k) - grains.points[state.contacts.back().first])});
     }
     joinBodies(state, grains);
     return state;

@@ -43,6 +43,25 @@ std::vector<double> gaussSeries(double b) {
     return series;
 }
 
+/// Takes the highest powers out of a polynomial of y, as far as it changes by no more than an error for all
+/// |y| <= 1: a y^n by a (y^n - T_n(y) / 2^(n - 1)), which errs by |a| / 2^(n - 1) (Lanczos, Applied Analysis,
+/// 1956, ch. VII: economisation). Half of the powers of gaussSeries() go.
+void economise(std::vector<double>& polynomial, double error) {
+    while (polynomial.size() > 2) {
+        const std::size_t n = polynomial.size() - 1;
+        error -= std::ldexp(std::abs(polynomial[n]), 1 - static_cast<int>(n));
+        if (error < 0) break;
+        double ofPower = polynomial[n];  // in a T_n / 2^(n - 1), of y^(n - 2m)
+        for (std::size_t m = 0; 2 * m <= n; ++m) {
+            polynomial[n - 2 * m] -= ofPower;
+            const auto left = static_cast<double>(n - 2 * m);
+            ofPower *= -left * (left - 1) / (4 * static_cast<double>((m + 1) * (n - m - 1)));
+        }
+        polynomial.pop_back();
+    }
+    if (polynomial.size() % 2 != 0) polynomial.push_back(0);
+}
+
 }  // namespace
 
 KernelShape kernelShapeNamed(std::string_view name) {
@@ -69,6 +88,7 @@ SmoothingKernel::SmoothingKernel(KernelShape shape, int dimensions, double width
             const double q = c / (std::numbers::sqrt2 * w);
             norm = 1 / (std::pow(std::sqrt(2 * pi) * w, size) * weightWithin(q, size));
             series = gaussSeries(0.5 * q * q);
+            economise(series, 1e-16 * w / c);
             break;
         }
         case KernelShape::Lucy:

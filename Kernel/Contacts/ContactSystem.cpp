@@ -54,7 +54,8 @@ void ContactSystem::tellGhosts(std::span<double> ofGrains, std::span<double> ofB
 bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift) {
     // Grains that have come and gone again since the last call need their places, too.
     contacts.sides.addGrains(grains.size());
-    unlisted += grainShift + std::max(grainShift, wallShift);
+    lastApproach = approachBy(grainShift, wallShift);
+    unlisted += lastApproach;
     ++stepsListed;
     const bool isNear = unlisted >= std::min(skin.width(), listBefore) ||
                         (liquid.formsAtFilms(*species) && liquid.largestFilmContact(grains) > filmsReach);
@@ -789,6 +790,19 @@ ContactCounts ContactSystem::counts() const {
         }
     }
     return all;
+}
+
+std::vector<std::uint32_t> ContactSystem::contactsAtWalls(const Grains& grains) const {
+    std::vector<std::uint32_t> found;
+    for (std::size_t c = contacts.firstWallBlock() * Pack::lanes; c < contacts.blockCount() * Pack::lanes;
+         ++c)
+        if (contacts.isListed(c)) found.push_back(static_cast<std::uint32_t>(c));
+    const auto keyOf = [&](std::uint32_t contact) {
+        return std::pair(grains.identity[contacts.firstOf(contact)],
+                         contacts.keyOf(contact, 0, grains.identity));
+    };
+    std::ranges::sort(found, {}, keyOf);
+    return found;
 }
 
 void ContactSystem::sumWallForces(const Grains& grains) {

@@ -259,19 +259,32 @@ public:
     /// Where an account is kept for the wear of walls alone, contacts with walls have samples, and others do
     /// not: of all walls, as a contact may go over from one to another.
     void sampleWallsAlone() { samplesPairs = false; }
-    /// Blocks of eight contacts with walls.
-    [[nodiscard]] std::size_t wallBlockCount() const { return contacts.wallPoints.size(); }
-    /// As forEachEnergyRecord(), for the contacts with walls, as they are listed.
-    /// @param first, end of the blocks that are visited
+    /// The listed contacts with walls, in the order of identities: of the grain, the wall and its part.
+    [[nodiscard]] std::vector<std::uint32_t> contactsAtWalls(const Grains& grains) const;
+    /// Calls function(k, bucket, block, lane, record) for those of the contacts [begin, end) that have a
+    /// force, or had one at the end of the last step.
+    /// @param contacts those of contactsAtWalls(), as of the same list
     template <class Function>
-    void forEachRecordAtWalls(const Grains& grains, std::size_t first, std::size_t end, Function&& function) {
-        for (std::size_t block = first; block < end; ++block) {
-            const std::size_t contact = (contacts.firstWallBlock() + block) * Pack::lanes;
-            const std::uint32_t slots = contacts.slots[contact / Pack::lanes];
+    void forEachRecordAtWalls(const Grains& grains, std::span<const std::uint32_t> atWalls, std::size_t begin,
+                              std::size_t end, Function&& function) {
+        constexpr std::size_t ahead = 4;
+        for (std::size_t k = begin; k < end; ++k) {
+            if (k + ahead < end) prefetchAtWall(grains, atWalls[k + ahead]);
+            const std::uint32_t slots = contacts.slots[atWalls[k] / Pack::lanes];
             if (slots == ContactStore::asleep || slots == ContactStore::waking) continue;
-            for (std::size_t lane = 0; lane < Pack::lanes; ++lane)
-                visitRecord(grains, static_cast<std::uint32_t>(contacts.slotOf(contact + lane)), function);
+            const auto withNumber = [&](const Bucket& bucket, const ContactBlock& block, std::size_t lane,
+                                        EnergyRecord& record) { function(k, bucket, block, lane, record); };
+            visitRecord(grains, static_cast<std::uint32_t>(contacts.slotOf(atWalls[k])), withNumber);
         }
+    }
+
+    /// Whether refresh() would list again with such shifts (m), as bodies may have come near each other.
+    [[nodiscard]] bool isListDue(double grainShift, double wallShift) const {
+        return unlisted + approachBy(grainShift, wallShift) >= std::min(skin.width(), listBefore);
+    }
+    /// Whether it would in a step with shifts so many times as large as those of the last one.
+    [[nodiscard]] bool isListDueSoon(double times) const {
+        return unlisted + times * lastApproach >= std::min(skin.width(), listBefore);
     }
 
 private:
@@ -289,6 +302,16 @@ private:
             if (grains.hasSpin) prefetch(&grains.rotation[grain], sizeof(RotationRecord));
         }
     }
+    /// The same of a contact with a wall, of which the account for the wear of walls reads no more.
+    [[gnu::always_inline]] void prefetchAtWall(const Grains& grains, std::uint32_t contact) const {
+        const EnergyRecord& record = contacts.memory.energies[contacts.slotOf(contact)];
+        prefetch<true>(&record.now, sizeof(CoreSample) + sizeof(WallSample));
+        prefetch<true>(&record.last, sizeof(CoreSample) + sizeof(WallSample));
+        const std::uint32_t grain = contacts.firstOf(contact);
+        prefetch(&grains.atStart[grain], sizeof(MotionAtStart));
+        prefetch(&grains.translation[grain], sizeof(TranslationRecord));
+        if (grains.hasSpin) prefetch(&grains.rotation[grain], sizeof(RotationRecord));
+    }
     template <class Function>
     void visitRecord(const Grains& grains, std::uint32_t slot, Function& function) {
         EnergyRecord& record = contacts.memory.energies[slot];
@@ -303,6 +326,10 @@ private:
         return ledger && (samplesPairs || bucket.wall >= 0);
     }
     void chooseQuantum(const Grains& grains);
+    /// m, by which two bodies can approach in a step with these largest shifts (m).
+    static double approachBy(double grainShift, double wallShift) {
+        return grainShift + std::max(grainShift, wallShift);
+    }
     [[nodiscard]] const Wall& wallOf(const Bucket& bucket) const {
         return walls->getObject(static_cast<std::size_t>(bucket.wall));
     }
@@ -382,6 +409,7 @@ private:
     IdleLanes idleLanes;
     std::size_t stepsListed = 0;   // since the contacts were listed
     double unlisted = infinity;    // m, that two bodies can have approached since contacts were listed
+    double lastApproach = 0;       // m, of it in the last step
     double filmsReach = 0;         // m, of films that meet, for which contacts were listed
     double listBefore = infinity;  // m, at which they must be listed, because of grains that came later
     struct Sphere {

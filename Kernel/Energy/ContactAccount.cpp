@@ -78,13 +78,12 @@ double givenByHeld(const ContactSample& s, const BodyMotion& first, const BodyMo
 
 /// The entries of one spring with dashpot and slider.
 struct SliderEntries {
-    double &stored, &dashpot, &slider;
+    double &stored, &dashpot, &slider, &stiffening, &stepError;
 };
 
 /// @param before, after: velocities (m/s) against which the forces of the two samples work
 void addSlider(const SliderSample& last, const SliderSample& now, const Vector<double>& before,
-               const Vector<double>& after, bool lasts, double step, SliderEntries entries,
-               EnergyLedger& account) {
+               const Vector<double>& after, bool lasts, double step, SliderEntries entries) {
     const double half = 0.5 * step;
     (last.slides > 0 ? entries.slider : entries.dashpot) -= half * dot(last.rest, before);
     (now.slides > 0 ? entries.slider : entries.dashpot) -= half * dot(now.rest, after);
@@ -94,12 +93,23 @@ void addSlider(const SliderSample& last, const SliderSample& now, const Vector<d
     const double byStiffness =
         lasts ? 0.25 * (now.stiffness - last.stiffness) * (now.stretch2 + last.stretch2) : 0;
     const double missing = work - (now.stored() - last.stored() - byStiffness);
-    (now.slides + last.slides > 0 ? entries.slider : account.stepError) += missing;
-    account.stiffening -= byStiffness;
+    (now.slides + last.slides > 0 ? entries.slider : entries.stepError) += missing;
+    entries.stiffening -= byStiffness;
     entries.stored += now.stored();
 }
 
 }  // namespace
+
+double slidingWorkAtWall(const EnergyRecord& record, const BodyMotion& grain, bool isShaped, double step) {
+    const ContactSample &last = record.last, &now = record.now;
+    if (!(now.sliding.slides + last.sliding.slides > 0)) return 0;
+    const ContactKind kind{.isWall = true, .isShaped = isShaped};
+    double stored = 0, dashpot = 0, slider = 0, stiffening = 0, stepError = 0;
+    addSlider(last.sliding, now.sliding, relativeMotion(last, grain, {}, kind).slip,
+              relativeMotion(now, grain, {}, kind).slip, last.touching > 0 && now.touching > 0, step,
+              {stored, dashpot, slider, stiffening, stepError});
+    return slider;
+}
 
 /// The path slid is the work over the force of friction; by the sums of both samples of the step, this is
 /// 1/mu of Coulomb's law, and stays bounded where a contact ends.
@@ -174,13 +184,16 @@ void addContact(EnergyRecord& record, const BodyMotion& first, const BodyMotion&
         account.viscousBridges += lostInBridge(last.bridge, before) + lostInBridge(now.bridge, after);
 
     const bool lasts = last.touching > 0 && now.touching > 0;
+    const auto entriesOf = [&](double& stored, double& dashpot, double& slider) {
+        return SliderEntries{stored, dashpot, slider, account.stiffening, account.stepError};
+    };
     addSlider(last.sliding, now.sliding, before.slip, after.slip, lasts, step,
-              {account.tangentialElastic, account.tangentialDashpots, account.sliding}, account);
+              entriesOf(account.tangentialElastic, account.tangentialDashpots, account.sliding));
     if (kind.hasCouples) {
         addSlider(last.rolling, now.rolling, before.turning, after.turning, lasts, step,
-                  {account.rollingElastic, account.rolling, account.rolling}, account);
+                  entriesOf(account.rollingElastic, account.rolling, account.rolling));
         addSlider(last.torsion, now.torsion, before.turning, after.turning, lasts, step,
-                  {account.torsionElastic, account.torsion, account.torsion}, account);
+                  entriesOf(account.torsionElastic, account.torsion, account.torsion));
     }
 }
 

@@ -35,6 +35,9 @@ struct ContactKind {
 ContactWear contactWear(const EnergyRecord& record, double slidingWork, const Vector<double>& velocity,
                         double mass);
 
+/// J: what the slider of a contact with a wall dissipates in a step (s), as addContact() has it.
+double slidingWorkAtWall(const EnergyRecord& record, const BodyMotion& grain, bool isShaped, double step);
+
 /// Adds to an account what one contact did in a step (s).
 void addContact(EnergyRecord& record, const BodyMotion& first, const BodyMotion& second,
                 const ContactKind& kind, double step, EnergyLedger& account);

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <bit>
-#include <tuple>
 #include <utility>
 
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Energy/BodyAccount.h"
 #include "Kernel/Energy/ContactAccount.h"
+#include "Kernel/Energy/WearOfStep.h"
 #include "Kernel/Math/ExactRows.h"
 #include "Kernel/Math/ExactSum.h"
 #include "Kernel/Motion/Integrator.h"
-#include "Kernel/Particles/MovingBodies.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/Membrane.h"
 #include "Kernel/Walls/WornWall.h"
@@ -55,22 +54,6 @@ public:
         takeHeldLoads(grains, contacts.store());
         bodies.begin(grains, contacts.store());
         allWereHere = !grains.isShared;
-    }
-
-    /// The same where the account is kept for the wear of walls alone.
-    static void beginWear(Grains& grains, int threads) {
-        constexpr std::size_t worthAThread = 4096;
-        grains.remembersStart = true;
-        grains.atStart.resize(grains.size());
-        inParts(
-            grains.size(), threads,
-            [&](int, std::size_t first, std::size_t end) {
-                for (std::size_t place = first; place < end; ++place) {
-                    grains.atStart[place].velocity = grains.translation[place].velocity;
-                    if (grains.hasSpin) grains.atStart[place].spin = grains.rotation[place].spin;
-                }
-            },
-            worthAThread);
     }
 
     /// Membranes may have been added and removed in the run: what was stored in them came with them.
@@ -153,13 +136,13 @@ public:
         ranks.addUp({&besides, &byHolders});
         ledger.stepError -= besides.value();
         ledger.walls += byHolders.value();
-        const std::vector<WornWall*> wornOf = wornWalls(walls);
-        WearOfStep wear(wornOf);
+        const WearOfStep wear(walls);
+        std::vector<WearOfContact> worn;
         lossesOfStep.clear();
         const StepOfScene scene{grains, contacts, walls, step};
-        ExactRows<ledgerEntries>& sums =
-            notesLosses ? sumInOrder(scene, contacts, wear) : sumOnThreads(scene, contacts, threads, wear);
-        wear.give(ranks);
+        ExactRows<ledgerEntries>& sums = notesLosses ? sumInOrder(scene, contacts, wear, worn)
+                                                     : sumOnThreads(scene, contacts, threads, wear, worn);
+        wear.give(worn, ranks);
         std::vector<ExactSum*> columns;
         for (ExactSum& column : sums.exact()) columns.push_back(&column);
         ranks.addUp(columns);
@@ -173,29 +156,6 @@ public:
         takeInMembranes(walls, step, ledger);
         ledger.kinetic = ranks.sum(sumOfKineticEnergy(grains));
         ledger.potential = ledger.carried + ranks.sum(sumOfPotentialEnergy(grains, gravity));
-    }
-
-    /// The same where the account is kept for the wear of walls alone, and contacts have samples at walls.
-    static void finishWearAlone(const Grains& grains, ContactSystem& contacts, const WallHandler& walls,
-                                double step, int threads) {
-        constexpr std::size_t blocksWorthAThread = 32, share = 32;
-        const std::vector<WornWall*> wornOf = wornWalls(walls);
-        WearOfStep wear(wornOf);
-        std::vector<WearOfStep::Own> worn(static_cast<std::size_t>(threads));
-        inShares(
-            contacts.wallBlockCount(), threads,
-            [&](int part, std::size_t first, std::size_t end) {
-                contacts.forEachRecordAtWalls(grains, first, end,
-                                              [&](const Bucket& bucket, const ContactBlock& block,
-                                                  std::size_t lane, EnergyRecord& record) {
-                                                  accountOf({grains, contacts, walls, step}, wear, bucket,
-                                                            block, lane, record,
-                                                            worn[static_cast<std::size_t>(part)]);
-                                              });
-            },
-            blocksWorthAThread, shareOf(share));
-        for (const WearOfStep::Own& ofPart : worn) wear.add(ofPart);
-        wear.give(contacts.ranks());
     }
 
 private:
@@ -212,49 +172,6 @@ private:
         return motion;
     }
 
-    /// The vector (m) from the centre of a grain to the surface of the wall that it touches, or has just
-    /// left.
-    static Vector<double> depthOf(const EnergyRecord& record, double radius) {
-        const ContactSample& sample = record.now.acts() ? record.now : record.last;
-        if (sample.isShaped()) return sample.arm1 - sample.halfOverlap * sample.normal;
-        return (radius - 2 * sample.halfOverlap) * sample.normal;
-    }
-
-    struct WearOfContact {
-        std::uint32_t identity;  // of the grain
-        int wall;
-        std::uint32_t part;
-        Vector<double> point;  // m
-        ContactWear done;
-    };
-    /// The wear of the walls (null for those that do not wear) in a step.
-    class WearOfStep {
-    public:
-        explicit WearOfStep(const std::vector<WornWall*>& ofScene) : walls(ofScene) {
-            for (WornWall* const worn : walls)
-                if (worn) worn->forgetStep();
-        }
-        [[nodiscard]] bool wears(int wall) const {
-            return wall >= 0 && walls[static_cast<std::size_t>(wall)] != nullptr;
-        }
-        using Own = std::vector<WearOfContact>;
-        void add(const Own& some) { own.insert(own.end(), some.begin(), some.end()); }
-        /// It is added up in the order of identities, on all ranks.
-        void give(const AllRanks& ranks) const {
-            if (std::ranges::none_of(walls, [](const WornWall* wall) { return wall != nullptr; })) return;
-            std::vector<WearOfContact> all = ranks.gather(own);
-            std::ranges::sort(all, {}, [](const WearOfContact& one) {
-                return std::tuple(one.identity, one.wall, one.part);
-            });
-            for (const WearOfContact& one : all)
-                walls[static_cast<std::size_t>(one.wall)]->takeWear(one.part, one.point, one.done);
-        }
-
-    private:
-        const std::vector<WornWall*>& walls;
-        Own own;
-    };
-
     struct StepOfScene {
         const Grains& grains;
         const ContactSystem& contacts;
@@ -264,7 +181,7 @@ private:
     using Sums = ExactRows<ledgerEntries>;
     struct PartOfSums {
         Sums sums;
-        WearOfStep::Own wear;
+        std::vector<WearOfContact> wear;
 
         void clear() {
             sums.clear();
@@ -272,7 +189,8 @@ private:
         }
     };
     /// The sums over the contacts of a step; exact ones need no order.
-    Sums& sumOnThreads(const StepOfScene& scene, ContactSystem& contacts, int threads, WearOfStep& wear) {
+    Sums& sumOnThreads(const StepOfScene& scene, ContactSystem& contacts, int threads, const WearOfStep& wear,
+                       std::vector<WearOfContact>& worn) {
         constexpr std::size_t worthAThread = 1024, share = 512;
         if (parts.size() < static_cast<std::size_t>(threads)) parts.resize(static_cast<std::size_t>(threads));
         for (PartOfSums& part : parts) part.clear();
@@ -292,13 +210,14 @@ private:
             },
             worthAThread, shareOf(share));
         for (std::size_t k = 0; k < parts.size(); ++k) {
-            wear.add(parts[k].wear);
+            worn.insert(worn.end(), parts[k].wear.begin(), parts[k].wear.end());
             if (k > 0) parts[0].sums.add(parts[k].sums);
         }
         return parts[0].sums;
     }
     /// The same in the order of identities, in which grains are heated.
-    Sums& sumInOrder(const StepOfScene& scene, ContactSystem& contacts, WearOfStep& wear) {
+    Sums& sumInOrder(const StepOfScene& scene, ContactSystem& contacts, const WearOfStep& wear,
+                     std::vector<WearOfContact>& worn) {
         parts.resize(std::max<std::size_t>(parts.size(), 1));
         PartOfSums& part = parts[0];
         part.clear();
@@ -314,14 +233,14 @@ private:
                                     bucket.wall >= 0 ? ObservedContact::none : identity[block.second[lane]],
                                     bucket.wall, account.lost()});
         });
-        wear.add(part.wear);
+        worn = part.wear;
         return part.sums;
     }
 
     /// The account of a contact in a step, and what it wears off.
     static EnergyLedger accountOf(const StepOfScene& scene, const WearOfStep& wear, const Bucket& bucket,
                                   const ContactBlock& block, std::size_t lane, EnergyRecord& record,
-                                  WearOfStep::Own& worn) {
+                                  std::vector<WearOfContact>& worn) {
         const Grains& grains = scene.grains;
         const PeriodicBox& box = scene.contacts.periodicBox();
         const ContactLaws& laws = scene.contacts.laws().ofPair(bucket.species1, bucket.species2);
@@ -346,34 +265,14 @@ private:
         const BodyMotion grain = meanMotion(grains, first);
         EnergyLedger account;  // of this contact in the step
         addContact(record, grain, other, kind, scene.step, account);
-        const bool slidesOrBegins =
-            account.sliding != 0 || (record.now.touching > 0 && !(record.last.touching > 0));
-        if (slidesOrBegins && scene.step > 0 && wear.wears(bucket.wall) && !grain.isHeld) {
-            const Vector<double> arm = depthOf(record, grain.radius);
-            worn.push_back({grains.identity[first], bucket.wall, second,
-                            grains.translation[first].position + arm,
-                            contactWear(record, account.sliding, grains.atStart[first].velocity,
-                                        massAtContact(grains, box, first, arm))});
-        }
+        if (scene.step > 0 && wear.wears(bucket.wall) && !grain.isHeld &&
+            WearOfStep::isWorn(record, account.sliding))
+            worn.push_back(WearOfStep::of(grains, box, bucket, block, lane, record, grain, account.sliding));
         takeNowAsLast(record, kind);
         // The membrane's own account has this work, as it was done on the vertices.
         if (kind.isWall && scene.walls.getObject(static_cast<std::size_t>(bucket.wall)).membrane())
             account.stepError -= std::exchange(account.walls, 0);
         return account;
-    }
-
-    /// The mass (kg) that a wall feels at a contact with the grain at a place: of a rigid body, what its
-    /// turning leaves of it. @param arm m, from the centre of the grain to the contact
-    static double massAtContact(const Grains& grains, const PeriodicBox& box, std::uint32_t place,
-                                const Vector<double>& arm) {
-        const TranslationRecord& grain = grains.translation[place];
-        const std::uint32_t number = grains.bodies.bodyOf(grains.identity[place]);
-        if (number == RigidBodies::none) return 1 / grain.inverseMass;
-        const RigidBody& body = grains.bodies[grains.bodies.find(number)];
-        const double mobility =
-            mobilityOf(body, box.nearest(grain.position - body.position) + arm, (1 / norm(arm)) * arm,
-                       grains.bodies.heldAxesOf(grains.bodies.find(number)));
-        return 1 / std::max(mobility, 1e-9 / body.mass);
     }
 
     static double energyOfPistons(const WallHandler& walls) {
@@ -456,12 +355,6 @@ private:
                                      0.5 * step * (drive->earlier + drive->acceleration));
         }
         ledger.pistons = energyOfPistons(walls);
-    }
-
-    static BodyMotion meanMotion(const Grains& grains, std::size_t k) {
-        const Motion &then = grains.atStart[k], now = motionOf(grains, k);
-        return {0.5 * (then.velocity + now.velocity), 0.5 * (then.spin + now.spin),
-                grains.translation[k].radius, grains.translation[k].inverseMass == 0};
     }
 
     /// The motion of a grain in the axes in which it is held, and the forces on it there.

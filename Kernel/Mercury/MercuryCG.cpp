@@ -19,41 +19,43 @@ namespace {
 using Contact = GrainState::Contact;
 
 /// m, from the centre of the first grain of a contact to the middle of its overlap.
-Vector<double> toPoint(const GrainState& state, const Contact& contact) {
-    if (contact.toPoint) return *contact.toPoint;
+Vector<double> toPoint(const GrainState& state, std::size_t number) {
+    if (!state.shapes.empty()) return state.shapes[number].toPoint;
+    const Contact& contact = state.contacts[number];
     const double length = norm(contact.shift), radius = state.grains[contact.first].radius,
                  gap = length - radius - state.grains[contact.second].radius;
     return ((radius + 0.5 * gap) / length) * contact.shift;
 }
 
-/// The contact as its second grain has it.
-Contact reversed(const Contact& contact) {
-    Contact other = contact;
-    std::swap(other.first, other.second);
-    other.shift = -contact.shift;
-    other.force = -contact.force;
-    if (contact.toPoint) other.toPoint = *contact.toPoint - contact.shift;
-    if (contact.normal) other.normal = -*contact.normal;
-    return other;
+/// Turns a contact round: it is then as its second grain has it.
+void reverse(GrainState& state, std::size_t number) {
+    Contact& contact = state.contacts[number];
+    if (!state.shapes.empty()) {
+        auto& [point, normal] = state.shapes[number];
+        point -= contact.shift;
+        if (normal) normal = -*normal;
+    }
+    std::swap(contact.first, contact.second);
+    contact.shift = -contact.shift;
+    contact.force = -contact.force;
 }
 
 /// Takes grains out of a state. A contact with one of them is then one with a wall at the contact point.
 /// @param isOut of each grain
 void makeBoundary(GrainState& state, const std::vector<bool>& isOut) {
     std::vector<Contact> contacts;
-    for (const Contact& contact : state.contacts) {
-        if (contact.second == Contact::wall) {
-            if (!isOut[contact.first]) contacts.push_back(contact);
-            continue;
+    std::vector<GrainState::Shape> shapes;
+    for (std::size_t k = 0; k < state.contacts.size(); ++k) {
+        Contact& contact = state.contacts[k];
+        const bool isAtWall = contact.second == Contact::wall;
+        if (isOut[contact.first] && (isAtWall || isOut[contact.second])) continue;
+        if (!isAtWall && isOut[contact.first]) reverse(state, k);
+        if (!isAtWall && isOut[contact.second]) {
+            contact.shift = toPoint(state, k);
+            contact.second = Contact::wall;
         }
-        if (isOut[contact.first] && isOut[contact.second]) continue;
-        Contact own = isOut[contact.first] ? reversed(contact) : contact;
-        if (isOut[own.second]) {
-            own.shift = toPoint(state, own);
-            own.second = Contact::wall;
-            own.toPoint.reset();
-        }
-        contacts.push_back(own);
+        contacts.push_back(contact);
+        if (!state.shapes.empty()) shapes.push_back(state.shapes[k]);
     }
     std::vector<std::uint32_t> number(state.grains.size());
     std::vector<GrainState::Grain> grains;
@@ -67,6 +69,7 @@ void makeBoundary(GrainState& state, const std::vector<bool>& isOut) {
     }
     state.grains = std::move(grains);
     state.contacts = std::move(contacts);
+    state.shapes = std::move(shapes);
 }
 
 /// Whether a grain counts: it moves, and is of the species that is selected (negative: of any).

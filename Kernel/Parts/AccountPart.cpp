@@ -14,7 +14,9 @@ Features AccountPart::features(const StepContext& /*scene*/) const {
 }
 
 void AccountPart::begin(StepContext& scene, bool /*isRestarted*/) {
-    if (!kept) scene.contacts.sampleWallsAlone();
+    if (kept) return;
+    scene.contacts.sampleWallsAlone();
+    wear.begin();
 }
 
 void AccountPart::takeOver(StepContext& scene, const SceneChanges& changes) {
@@ -26,12 +28,13 @@ void AccountPart::beforeMotion(StepContext& step) {
     const StepTimes::Within ledgers(step.times, StepTimes::Part::Ledger);
     step.contacts.renewGhosts(step.grains());  // a hook may have changed velocities
     if (kept) account.begin(step.grains(), step.contacts, step.walls, step.gravity, step.length, ledger);
-    else EnergyAccount::beginWear(step.grains(), step.threads);
+    else wear.beforeMotion(step.grains(), step.contacts, step.threads);
 }
 
 void AccountPart::afterMotion(StepContext& step) {
     const StepTimes::Within ledgers(step.times, StepTimes::Part::Ledger);
     if (kept) account.moved(step.grains(), step.contacts.ranks(), step.gravity, ledger);
+    else wear.afterMotion(step.grains(), step.contacts, step.shifts.grains, step.shifts.walls);
 }
 
 void AccountPart::finish(StepContext& step) {
@@ -39,7 +42,7 @@ void AccountPart::finish(StepContext& step) {
     if (kept)
         account.finish(step.grains(), step.contacts, step.walls, step.gravity, step.length, *step.scheme,
                        step.threads, ledger);
-    else EnergyAccount::finishWearAlone(step.grains(), step.contacts, step.walls, step.length, step.threads);
+    else wear.finish(step.grains(), step.contacts, step.walls, step.length, step.threads);
     if (step.length > 0) EnergyAccount::finishWear(step.walls, step.time + step.length);
 }
 

@@ -2,6 +2,7 @@
 
 #include "Kernel/Energy/EnergyAccount.h"
 #include "Kernel/Energy/EnergyLedger.h"
+#include "Kernel/Energy/WearAccount.h"
 #include "Kernel/Step/StepPart.h"
 
 namespace pendular {
@@ -41,6 +42,7 @@ public:
 private:
     EnergyLedger ledger;
     EnergyAccount account;
+    WearAccount wear;          // in its place where walls wear and no ledger is kept
     double energyAtStart = 0;  // J, of the ledger
     bool kept = false, wears = false;
 };

@@ -6,7 +6,6 @@ namespace pendular {
 
 WornTriangles::WornTriangles(const MeshTriangles& given, const WearLaw& law)
     : triangles(given), wearLaw(law), wear(given.corners.size()) {
-    measure();
     for (std::size_t t = 0; t < wear.size(); ++t) {
         const auto [a, b, c] = triangle(t);
         wear[t].area = 0.5 * norm(cross(b - a, c - a));
@@ -14,20 +13,19 @@ WornTriangles::WornTriangles(const MeshTriangles& given, const WearLaw& law)
         if (part >= trianglesOf.size()) trianglesOf.resize(part + 1);
         trianglesOf[part].push_back(static_cast<std::uint32_t>(t));
     }
+    measure();
 }
 
 void WornTriangles::measure() {
-    std::vector<Box> boxes(triangles.corners.size());
-    Box all;
-    gradients.resize(boxes.size());
-    for (std::size_t t = 0; t < boxes.size(); ++t) {
-        gradients[t] = gradientsOf(t);
-        for (const Vector<double>& corner : triangle(t)) boxes[t].include(corner), all.include(corner);
+    constexpr std::size_t few = 16;  // of which all are looked at
+    weights.clear();
+    for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
+        const auto [a, b, c] = triangle(t);
+        weights.emplace_back(a, b, c);
     }
-    tree = BoxTree(boxes);
-    // Points lie on the surface but for round-off; where a grain has just left it, cornersAt() looks
-    // farther.
-    tolerance = 1e3 * meshTolerance * norm(all.highest - all.lowest);
+    grids.resize(trianglesOf.size());
+    for (std::size_t part = 0; part < grids.size(); ++part)
+        if (trianglesOf[part].size() > few) grids[part].emplace(trianglesOf[part], weights);
 }
 
 Triangle WornTriangles::triangle(std::size_t number) const {
@@ -35,38 +33,24 @@ Triangle WornTriangles::triangle(std::size_t number) const {
     return {triangles.vertices[a], triangles.vertices[b], triangles.vertices[c]};
 }
 
-/// The weight of corner a at a point p is dot(2A, (b - p) x (c - p)) / |2A|^2, with 2A = (b - a) x (c - a).
-WornTriangles::Gradients WornTriangles::gradientsOf(std::size_t number) const {
-    const auto [a, b, c] = triangle(number);
-    const Vector<double> twice = cross(b - a, c - a);
-    const double inverse = 1 / squaredNorm(twice);
-    return {inverse * cross(twice, c - b), inverse * cross(twice, a - c), c};
-}
-
-std::array<double, 3> WornTriangles::weightsAt(std::size_t number, const Vector<double>& point) const {
-    const Gradients& of = gradients[number];
-    const Vector<double> way = point - of.last;
-    const double a = dot(of.first, way), b = dot(of.second, way);
-    return {a, b, 1 - a - b};
-}
-
 /// Points on an edge belong to both of its triangles but for round-off: the one with the largest of the
 /// smallest weights has them, of equal ones the first.
 WornTriangles::Corners WornTriangles::cornersAt(std::uint32_t part, const Vector<double>& point) const {
-    constexpr std::size_t few = 16;  // of which all are looked at
+    constexpr double roundOff = 1e-9;  // of a weight
     Corners best;
     double largest = -infinity;
     const auto consider = [&](std::uint32_t t) {
-        if (triangles.partOf[t] != part) return;
-        const std::array<double, 3> weights = weightsAt(t, point);
-        const double least = std::ranges::min(weights);
+        const std::array<double, 3> own = weights[t].at(point);
+        const double least = std::ranges::min(own);
         if (least < largest || (least == largest && t > best.triangle)) return;
         largest = least;
-        best = {t, weights};
+        best = {t, own};
     };
-    const std::vector<std::uint32_t>& all = trianglesOf[part];
-    if (all.size() > few) tree.forEachNear(point, tolerance, consider);
-    if (largest == -infinity) std::ranges::for_each(all, consider);
+    if (const std::optional<TriangleGrid>& grid = grids[part]) {
+        std::ranges::for_each(grid->near(point), consider);
+        if (largest > -roundOff) return best;
+    }
+    std::ranges::for_each(trianglesOf[part], consider);
     return best;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <span>
+#include <optional>
 #include <vector>
 
-#include "Kernel/Walls/BoxTree.h"
 #include "Kernel/Walls/MeshParts.h"
+#include "Kernel/Walls/TriangleGrid.h"
 #include "Kernel/Walls/WornWall.h"
 
 namespace pendular {
@@ -45,15 +45,6 @@ public:
     void visitState(StateArchive& archive);
 
 private:
-    /// How the weights of a triangle's first two corners change with the point on its plane; both are zero at
-    /// its last corner.
-    struct Gradients {
-        Vector<double> first, second;  // 1/m
-        Vector<double> last;           // m
-    };
-    [[nodiscard]] Gradients gradientsOf(std::size_t number) const;
-    /// The weights of a triangle's corners at the foot of a point on its plane; they sum to 1.
-    [[nodiscard]] std::array<double, 3> weightsAt(std::size_t number, const Vector<double>& point) const;
     /// In a triangle of the part.
     [[nodiscard]] Corners cornersAt(std::uint32_t part, const Vector<double>& point) const;
     /// What follows from the places of the vertices.
@@ -63,9 +54,8 @@ private:
     WearLaw wearLaw;
     std::vector<SurfaceWear> wear;
     std::vector<std::vector<std::uint32_t>> trianglesOf;  // each part
-    std::vector<Gradients> gradients;
-    BoxTree tree;
-    double tolerance;  // m
+    std::vector<CornerWeights> weights;
+    std::vector<std::optional<TriangleGrid>> grids;  // of parts of many triangles
 };
 
 }  // namespace pendular

@@ -293,6 +293,19 @@ TEST(Wear, isTheSameWithAndWithoutTheLedger) {
     EXPECT_LT(ledger->wear().slidingWork, ledger->energyLedger().sliding);
 }
 
+/// A box that meets its grains: many touches begin in steps in which contacts are listed again.
+TEST(Wear, isTheSameWithAndWithoutTheLedgerInABoxThatMoves) {
+    const auto alone = heap(2), ledger = heap(1);
+    ledger->keepEnergyLedger();
+    for (const auto* scene : {&alone, &ledger}) {
+        (*scene)->worn->setVelocity({0.5, 0, 1});
+        (*scene)->initialise();
+        (*scene)->steps(1500);
+    }
+    EXPECT_GT(alone->wear().impacts, 20);
+    expectSameWear(*alone, *ledger);
+}
+
 TEST(Wear, isTheSameSceneOtherwise) {
     const auto worn = heap(1);
     WallScene<Dry> plain({}, wallTests::material<Dry>(0.6, friction), {0, 0, -fieldOfGravity});
