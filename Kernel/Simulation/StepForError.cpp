@@ -51,7 +51,8 @@ struct Approach {
     double gap;           // m
 };
 
-/// What is left of the relative motion; nothing of bodies that stay together.
+/// What is left of the relative motion, along and across the first normal; nothing of bodies that stay
+/// together.
 struct Aftermath {
     double parting = 0, slip = 0, rim1 = 0, rim2 = 0;  // m/s
     double contactTime = 0;                            // s, of the first touch
@@ -95,11 +96,12 @@ public:
             step();
             const bool touches = overlap() > 0;
             const Vec3D relative = velocityOf(1) - velocityOf(0);
+            const double parting = relative.dot(normal());
             if (touches && !begin) begin = getTime();
             if (!begin) continue;
             if (!touches && seen.contactTime == 0) seen.contactTime = getTime() - *begin;
-            if (leaves && relative.x() < 0) return seen;
-            leaves = relative.x() > 0;
+            if (leaves && parting < 0) return seen;
+            leaves = parting > 0;
             if (!touches && !(contactForceOn(0).squaredNorm() > 0))
                 return {relative.x(), relative.y(), rimOf(0), rimOf(1), seen.contactTime, true};
             if (getNumberOfTimeSteps() > mostSteps)
@@ -118,11 +120,16 @@ private:
         grain.setVelocity({-side * share * approach.normal, -side * share * approach.slip, 0});
         particleHandler.copyAndAddObject(grain);
     }
+    /// m, from the first body to the second, or to the wall. It turns while grains slide past each other.
+    [[nodiscard]] Vec3D shift() {
+        const Vec3D place = particleHandler.getObject(0).getPosition();
+        if (meeting.isAtWall()) return {-place.x(), 0, 0};
+        return particleHandler.getObject(1).getPosition() - place;
+    }
+    [[nodiscard]] Vec3D normal() { return meeting.isAtWall() ? Vec3D(1, 0, 0) : shift().normalized(); }
     [[nodiscard]] double overlap() {
-        const double x1 = particleHandler.getObject(0).getPosition().x();
-        if (meeting.isAtWall()) return x1 + meeting.bodies.radius1;
-        return x1 + meeting.bodies.radius1 -
-               (particleHandler.getObject(1).getPosition().x() - meeting.bodies.radius2);
+        const double reach = meeting.bodies.radius1 + (meeting.isAtWall() ? 0 : meeting.bodies.radius2);
+        return reach - shift().norm();
     }
     [[nodiscard]] Vec3D velocityOf(std::size_t body) {
         if (body == 1 && meeting.isAtWall()) return Vec3D::Zero();
