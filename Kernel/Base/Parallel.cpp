@@ -11,6 +11,7 @@
 #include <span>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace pendular {
@@ -57,8 +58,8 @@ public:
         length = {};  // others have let it work
     }
     void noteWait(Clock::duration time) { credit -= time; }
-    /// It had not come yet when all was done, after this time: a quarter of which would have been saved
-    /// without it, as what was shared lay in the caches of two cores.
+    /// It had not come yet when all was done, after this time: without it a quarter
+    /// of that would have been saved, as what is shared lies in the caches of two cores.
     void noteLate(Clock::duration time) { credit -= time / 4; }
     /// After these.
     void beginIfDue(Clock::time_point now) {
@@ -83,7 +84,7 @@ private:
 class ThreadPool {
 public:
     [[nodiscard]] bool isOfThisProcess() const { return process == getpid(); }
-    /// All threads do that were asked last.
+    /// All threads do that were asked lately.
     [[nodiscard]] bool rests() const {
         const Clock::duration to = allRestTo.load(std::memory_order_relaxed);
         return to != Clock::duration::zero() && Clock::now().time_since_epoch() < to;
@@ -153,7 +154,7 @@ private:
             worker->rest.noteWait(waitFor(*worker));
             if (mayRest) worker->rest.beginIfDue(Clock::now());
         }
-        noteRests(helpers);
+        noteRests(helpers.size());
     }
     /// @return the time in which this thread was asleep
     Clock::duration waitFor(Worker& worker) {
@@ -164,10 +165,18 @@ private:
         worker.waitWhile(waitedFor);
         return Clock::now() - begin;
     }
-    void noteRests(std::span<const std::unique_ptr<Worker>> helpers) {
+    /// What rests() says: of all workers that were asked lately, as short work asks fewer of them than long.
+    /// @param asked in this call
+    void noteRests(std::size_t asked) {
+        constexpr int calls = 256;
+        mostAsked = std::max(mostAsked, asked);
         auto first = Clock::time_point::max();
-        for (const auto& worker : helpers) first = std::min(first, worker->rest.endsAt());
+        for (std::size_t k = 0; k < std::max(mostAsked, askedBefore); ++k)
+            first = std::min(first, workers[k]->rest.endsAt());
         allRestTo.store(first.time_since_epoch(), std::memory_order_relaxed);
+        if (++callsCounted < calls) return;
+        callsCounted = 0;
+        askedBefore = std::exchange(mostAsked, 0);
     }
     /// Makes what is missing; false where the system gives no more threads.
     bool hasWorkers(std::size_t wanted) {
@@ -199,6 +208,8 @@ private:
     std::atomic_flag busy;
     std::vector<std::unique_ptr<Worker>> workers;
     std::atomic<Clock::duration> allRestTo{Clock::duration::zero()};  // since the clock's beginning
+    std::size_t mostAsked = 0, askedBefore = 0;  // workers in a call, of these calls and those before
+    int callsCounted = 0;
     Work work;
     std::atomic<bool> staysAwake{false};
 };
