@@ -102,12 +102,13 @@ void Hdf5File::write(const std::string& name, std::string_view text) {
 std::vector<std::string> Hdf5File::names() const {
     const Alone alone(library);
     std::vector<std::string> found;
-    const auto take = [](hid_t, const char* name, const H5O_info_t* info, void* list) -> herr_t {
+    const auto take = [](hid_t, const char* name, const hdf5::ObjectInfo* info, void* list) -> herr_t {
         if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(list)->emplace_back(name);
         return 0;
     };
     errno = 0;
-    check(H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, take, &found, H5O_INFO_BASIC), "cannot be read");
+    check(hdf5::visitObjects(file, H5_INDEX_NAME, H5_ITER_INC, take, &found, H5O_INFO_BASIC),
+          "cannot be read");
     std::sort(found.begin(), found.end());
     return found;
 }
