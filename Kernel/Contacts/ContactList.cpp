@@ -80,7 +80,8 @@ void ContactList::listInParts(std::size_t grainCount, Function&& function) {
     for (Groups& part : parts)
         for (Group& found : part) {
             Group& group = groupOf(groups, found.bucket.species1, found.bucket.species2, found.bucket.wall);
-            if (group.contacts.empty()) group.contacts.swap(found.contacts);
+            // Not empty(): after it, g++ 14 warns of a copy to the memory in front of a vector.
+            if (group.contacts.capacity() == 0) group.contacts.swap(found.contacts);
             else group.contacts.insert(group.contacts.end(), found.contacts.begin(), found.contacts.end());
             found.contacts = {};
         }
