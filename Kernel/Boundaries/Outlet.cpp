@@ -162,7 +162,10 @@ std::vector<double> OutletHandler::letOutOfRanks(ParticleHandler& particles, Bod
             count(gone);
         }
     }
-    return contacts.finishRemovals(particles.store());
+    std::vector<double> stored = contacts.finishRemovals(particles.store());
+    ParticleStore& grains = particles.store();
+    grains.countOfAll = contacts.ranks().sum(grains.count());
+    return stored;
 }
 
 void OutletHandler::findGrains(const ParticleStore& grains, std::span<const std::uint32_t> tooYoung,

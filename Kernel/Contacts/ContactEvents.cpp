@@ -97,16 +97,30 @@ void ContactEvents::finish() {
     for (const ContactEvent& event : events) sums.add(event.kind);
 }
 
+/// Each event is heard on one rank, so that those of one contact stay as they happened.
+static std::vector<ContactEvent> heardByAll(const std::vector<ContactEvent>& own, const AllRanks& ranks) {
+    std::vector<ContactEvent> all = ranks.gather(own);
+    std::ranges::stable_sort(all, {}, contactOf);
+    return all;
+}
+
+std::vector<ContactEvent> ContactEvents::ofAll(const AllRanks& ranks) const {
+    return ranks.areSeveral() ? heardByAll(events, ranks) : std::vector<ContactEvent>();
+}
+
+ContactEventCounts ContactEvents::countsOfAll(const AllRanks& ranks) const {
+    ContactEventCounts all = sums;
+    for (std::uint64_t* const sum :
+         {&all.touchesBegun, &all.touchesEnded, &all.bridgesFormed, &all.bridgesRuptured})
+        *sum = ranks.sum(*sum);
+    return all;
+}
+
 void ContactEvents::gather(const AllRanks& ranks) {
     if (!listening) return;
     ownBefore = events;
-    for (std::vector<ContactEvent>* const list : {&events, &early}) {
-        *list = ranks.gather(*list);
-        std::ranges::stable_sort(*list, {}, contactOf);
-    }
-    for (std::uint64_t* const sum :
-         {&sums.touchesBegun, &sums.touchesEnded, &sums.bridgesFormed, &sums.bridgesRuptured})
-        *sum = ranks.sum(*sum);
+    for (std::vector<ContactEvent>* const list : {&events, &early}) *list = heardByAll(*list, ranks);
+    sums = countsOfAll(ranks);
 }
 
 void ContactEvents::leaveToFirstRank() {

@@ -244,6 +244,7 @@ void ContactSystem::beginArrival(Grains& grains) {
 
 void ContactSystem::finishArrival(Grains& grains) {
     arrived += grains.nextIdentity() - firstToCome;
+    grains.countOfAll += grains.nextIdentity() - firstToCome;
     sharing->expectOnAll(firstToCome);
     rangeOfAll = std::max(rangeOfAll, allRanks.largest(largestRange(*species, grains)));
     const std::shared_ptr<RememberedContacts> remembered = std::exchange(arriving, nullptr);
@@ -789,6 +790,7 @@ ContactCounts ContactSystem::counts() const {
             all.acting += static_cast<std::size_t>(std::popcount(unsigned{state.touching} | state.bridged));
         }
     }
+    for (std::size_t* const count : {&all.touching, &all.bridged, &all.acting}) *count = allRanks.sum(*count);
     return all;
 }
 

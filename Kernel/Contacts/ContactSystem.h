@@ -176,7 +176,7 @@ public:
     [[nodiscard]] const CapillaryWatch& capillaryNumbers() const { return capillaryWatch; }
 
     // Of the last step.
-    /// On several ranks, those that count here; sumOverRanks() of a scene has all of them.
+    /// On several ranks those of all, which call this together.
     [[nodiscard]] ContactCounts counts() const;
     [[nodiscard]] bool touches(std::size_t contact) const { return contacts.touches(contact); }
     [[nodiscard]] bool isBridged(std::size_t contact) const { return contacts.isBridged(contact); }

@@ -60,6 +60,9 @@ public:
     /// The same where only films have changed.
     static void weighFilms(ParticleHandler& of) { of.weighFilms(); }
 
+    /// Throws InputError where other ranks have grains that are not here. @param what needs all of them
+    static void requireAll(const ParticleHandler& of, std::string_view what) { of.requireAll(what); }
+
     /// The scene begins: no column is added from now on.
     static void closeColumns(ParticleHandler& of) { of.columnsAreClosed = true; }
     /// Grains have been joined to a rigid body.

@@ -103,7 +103,8 @@ void addRun(SummaryRows& rows, const Scene& scene) {
     if (scene.getStepForError()) addStepForError(rows, *scene.getStepForError());
     rows.add("threads", scene.getNumberOfThreads());
     rows.add("grains", scene.particleHandler.getSize());
-    if (const std::size_t bodies = scene.bodyHandler.getSize(); bodies > 0) rows.add("rigid bodies", bodies);
+    if (const std::size_t bodies = scene.particleHandler.store().bodies.size(); bodies > 0)
+        rows.add("rigid bodies", bodies);
     rows.add("walls", numberOfWalls(scene.wallHandler));
     const Vec3D g = scene.getGravity();
     rows.add("gravity", fmt::format("{} {} {}", g.x(), g.y(), g.z()), "m/s^2");
@@ -154,7 +155,7 @@ void addHealth(SummaryRows& rows, const Scene& scene) {
     rows.add("bridges", contacts.bridged);
     rows.add("lists of contacts made", scene.contacts().rebuildCount());
     if (scene.contacts().events().isListening()) {
-        const ContactEventCounts& counts = scene.contactEventCounts();
+        const ContactEventCounts counts = scene.contactEventCounts();
         rows.add("touches begun", counts.touchesBegun);
         rows.add("touches ended", counts.touchesEnded);
         rows.add("bridges formed", counts.bridgesFormed);
