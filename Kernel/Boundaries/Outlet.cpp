@@ -162,10 +162,7 @@ std::vector<double> OutletHandler::letOutOfRanks(ParticleHandler& particles, Bod
             count(gone);
         }
     }
-    std::vector<double> stored = contacts.finishRemovals(particles.store());
-    ParticleStore& grains = particles.store();
-    grains.countOfAll = contacts.ranks().sum(grains.count());
-    return stored;
+    return contacts.finishRemovals(particles.store());
 }
 
 void OutletHandler::findGrains(const ParticleStore& grains, std::span<const std::uint32_t> tooYoung,

@@ -4,6 +4,7 @@
 #include <array>
 #include <tuple>
 
+#include "Kernel/Contacts/EventsOfRanks.h"
 #include "Kernel/Walls/WallHandler.h"
 #include "Kernel/Walls/WallImages.h"
 
@@ -104,12 +105,12 @@ static std::vector<ContactEvent> heardByAll(const std::vector<ContactEvent>& own
     return all;
 }
 
-std::vector<ContactEvent> ContactEvents::ofAll(const AllRanks& ranks) const {
-    return ranks.areSeveral() ? heardByAll(events, ranks) : std::vector<ContactEvent>();
+std::vector<ContactEvent> eventsOfAll(const ContactEvents& own, const AllRanks& ranks) {
+    return heardByAll(own.ofStep(), ranks);
 }
 
-ContactEventCounts ContactEvents::countsOfAll(const AllRanks& ranks) const {
-    ContactEventCounts all = sums;
+ContactEventCounts countsOfAll(const ContactEvents& own, const AllRanks& ranks) {
+    ContactEventCounts all = own.counts();
     for (std::uint64_t* const sum :
          {&all.touchesBegun, &all.touchesEnded, &all.bridgesFormed, &all.bridgesRuptured})
         *sum = ranks.sum(*sum);
@@ -120,7 +121,7 @@ void ContactEvents::gather(const AllRanks& ranks) {
     if (!listening) return;
     ownBefore = events;
     for (std::vector<ContactEvent>* const list : {&events, &early}) *list = heardByAll(*list, ranks);
-    sums = countsOfAll(ranks);
+    sums = countsOfAll(*this, ranks);
 }
 
 void ContactEvents::leaveToFirstRank() {

@@ -64,9 +64,6 @@ public:
 
     [[nodiscard]] const std::vector<ContactEvent>& ofStep() const { return events; }
     [[nodiscard]] const ContactEventCounts& counts() const { return sums; }
-    /// The events of the last step, and the counts, of all ranks, which call this together.
-    [[nodiscard]] std::vector<ContactEvent> ofAll(const AllRanks& ranks) const;
-    [[nodiscard]] ContactEventCounts countsOfAll(const AllRanks& ranks) const;
     /// Each rank gets what all have heard and counted, until they share the grains again: from then on the
     /// first one goes on with it, and the others forget it.
     void gather(const AllRanks& ranks);

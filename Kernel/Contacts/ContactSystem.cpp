@@ -244,11 +244,11 @@ void ContactSystem::beginArrival(Grains& grains) {
 
 void ContactSystem::finishArrival(Grains& grains) {
     arrived += grains.nextIdentity() - firstToCome;
-    grains.countOfAll += grains.nextIdentity() - firstToCome;
     sharing->expectOnAll(firstToCome);
     rangeOfAll = std::max(rangeOfAll, allRanks.largest(largestRange(*species, grains)));
     const std::shared_ptr<RememberedContacts> remembered = std::exchange(arriving, nullptr);
     distribute(grains, *remembered, 0);
+    sharing->countAll(grains);
     listAgain(grains, *remembered);
     listedOnRanks(grains);
 }
@@ -466,7 +466,10 @@ std::vector<double> ContactSystem::finishRemovals(const Grains& grains) {
         if (one.wall < 0) energies.push_back(one.energy);
         else walls->getObject(static_cast<std::size_t>(one.wall)).loseForce(one.force);
     }
-    if (sharing) sharing->findPlaces(grains);
+    if (sharing) {
+        sharing->findPlaces(grains);
+        sharing->countAll(grains);
+    }
     return energies;
 }
 

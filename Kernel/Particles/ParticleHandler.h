@@ -148,7 +148,7 @@ public:
     void removeObject(std::size_t identity);
 
     /// How many grains there are; in a scene on several ranks, on all of them together.
-    [[nodiscard]] std::size_t getSize() const { return grains.isShared ? grains.countOfAll : grains.count(); }
+    [[nodiscard]] std::size_t getSize() const { return grains.isShared ? countOfAll() : grains.count(); }
     /// The same, under MercuryDPM's name.
     [[nodiscard]] std::size_t getNumberOfObjects() const { return getSize(); }
     [[nodiscard]] bool isEmpty() const { return getSize() == 0; }
@@ -300,6 +300,7 @@ private:
     double liquidDensity = 0;         // kg/m^3
     std::function<void(std::uint32_t)> beforeRemoval;
     std::function<void()> finishing;
+    std::function<std::size_t()> countOfAll;
     mutable std::atomic<bool> unfinished = false;
     mutable std::mutex finishingNow;
 };

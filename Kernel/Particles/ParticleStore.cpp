@@ -120,8 +120,8 @@ void ParticleStore::visitState(StateArchive& archive) {
 
 void ParticleStore::visitColumns(StateArchive& archive) {
     // A member that is added has to be added here.
-    auto& [spins, shared, ofAll, t, r, a, e, earlierIsKept, start, startIsKept, h, s, i, p, ghosts, named,
-           joined, n, free] = *this;
+    auto& [spins, shared, t, r, a, e, earlierIsKept, start, startIsKept, h, s, i, p, ghosts, named, joined, n,
+           free] = *this;
     archive.column<double>("translation", t);
     archive.column<double>("rotation", r);
     archive.column<double>("acceleration", a);

@@ -66,8 +66,7 @@ std::size_t bytesOf(const std::vector<Values>&... columns) {
 class ParticleStore {
 public:
     bool hasSpin = false;
-    bool isShared = false;       // other ranks have grains that are not here
-    std::size_t countOfAll = 0;  // grains of all ranks, where it is shared
+    bool isShared = false;  // other ranks have grains that are not here
     std::vector<TranslationRecord> translation;
     std::vector<RotationRecord> rotation;      // empty without spin
     std::vector<Vector<double>> acceleration;  // m/s^2, of the last step

@@ -2,6 +2,7 @@
 
 #include "Kernel/Base/Cache.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Contacts/EventsOfRanks.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/Ranks/ProgramRanks.h"
@@ -30,6 +31,7 @@ Scene::Scene() : inside(std::make_unique<Inside>(*this)) {
         const StepTimes::Within sum(stepTimer(), StepTimes::Part::Sum);
         GrainPart::finishLeftStep(inside->context);
     });
+    ParticleHandler::Inside::callToCountAll(particleHandler, [this] { return inside->sharing->countOfAll(); });
     wallHandler.callBeforeRemoval([this](int wall) {
         inside->bookEnergyOfEnded(inside->contacts.endContactsAtWall(particleHandler.store(), wall));
     });
@@ -60,7 +62,8 @@ double Scene::agreeOnLargest(double own) { return isShared() ? inside->sharing->
 
 void Scene::tellEvents() {
     if (!contacts().events().isListening()) return;
-    inside->eventsOfAll = contacts().events().ofAll(contacts().ranks());
+    if (inside->isDistributed())
+        inside->eventsOfAll = pendular::eventsOfAll(contacts().events(), contacts().ranks());
     const std::vector<ContactEvent> told = contactEvents();  // the hook may listen no more
     for (const ContactEvent& event : told) actionsOnContactEvent(event);
 }
@@ -201,7 +204,7 @@ const std::vector<ContactEvent>& Scene::contactEvents() const {
     return inside->isDistributed() ? inside->eventsOfAll : contacts().events().ofStep();
 }
 ContactEventCounts Scene::contactEventCounts() const {
-    return contacts().events().countsOfAll(contacts().ranks());
+    return countsOfAll(contacts().events(), contacts().ranks());
 }
 bool Scene::acceptsUnstableTimeStep() const { return inside->context.acceptsUnstableStep; }
 int Scene::getNumberOfThreads() const { return inside->context.threads; }

@@ -20,7 +20,7 @@ using ranks::cutsWander;
 using support::contains;
 using support::refusal;
 using Wet = HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies;
-constexpr std::size_t grains = 64, steps = 900;
+constexpr std::size_t grainCount = 64, hookStep = 900;
 
 /// A bed with a hook.
 class HookedBox : public scenes::SettlingBox<Wet> {
@@ -34,7 +34,7 @@ public:
 
 private:
     void actionsAfterTimeStep() override {
-        if (getNumberOfTimeSteps() == steps) hook(*this);
+        if (getNumberOfTimeSteps() == hookStep) hook(*this);
     }
     void actionsOnContactEvent(const ContactEvent& event) override { heard.push_back(event); }
 
@@ -53,7 +53,7 @@ void inHookOn(std::size_t count, const HookedBox::Hook& look) {
         });
         if (exchange) scene.setRanks(*exchange, cutsWander);
         scene.initialise();
-        scene.step(steps);
+        scene.step(hookStep);
     };
     if (count == 1) run(nullptr);
     else VirtualRanks(count).run([&](Exchange& exchange) { run(&exchange); });
@@ -101,8 +101,8 @@ TEST(PartialView, isWholeOnOneRankAndAfterGather) {
                 EXPECT_EQ(refusal([&] { call(scene); }), "") << name;
             std::size_t seen = 0;
             for (const GrainReference grain : scene.particleHandler) seen += grain.getRadius() > 0;
-            EXPECT_EQ(seen, grains);
-            EXPECT_EQ(scene.particleHandler.ownGrains().size(), grains);
+            EXPECT_EQ(seen, grainCount);
+            EXPECT_EQ(scene.particleHandler.ownGrains().size(), grainCount);
         });
 }
 
@@ -112,11 +112,11 @@ TEST(PartialView, ownGrainsAreEachOnOneRank) {
     std::mutex mutex;
     inHookOn(3, [&](HookedBox& scene) {
         const std::lock_guard lock(mutex);
-        EXPECT_LT(scene.particleHandler.ownGrains().size(), grains);
+        EXPECT_LT(scene.particleHandler.ownGrains().size(), grainCount);
         for (const GrainReference grain : scene.particleHandler.ownGrains()) found.insert(grain.getId());
     });
-    EXPECT_EQ(found.size(), grains);
-    EXPECT_EQ(std::set(found.begin(), found.end()).size(), grains);
+    EXPECT_EQ(found.size(), grainCount);
+    EXPECT_EQ(std::set(found.begin(), found.end()).size(), grainCount);
 }
 
 /// What a hook can ask of the scene as a whole.
@@ -164,7 +164,7 @@ TEST(PartialView, sumsCountsAndEventsHaveTheBitsOfOneRank) {
         EXPECT_EQ(alone->contacts[1], static_cast<double>(contacts));
         EXPECT_EQ(alone->acting, contacts);
     });
-    EXPECT_EQ(alone->size, grains);
+    EXPECT_EQ(alone->size, grainCount);
     EXPECT_GT(alone->contacts[0], 0);
     EXPECT_GT(alone->heard.size(), 50u);
     for (const std::size_t count : {2u, 3u, 7u})
@@ -188,7 +188,7 @@ TEST(PartialView, aHookMayChangeEachOfItsGrains) {
             });
             if (exchange) scene.setRanks(*exchange, cutsWander);
             scene.initialise();
-            scene.step(steps + 100);
+            scene.step(hookStep + 100);
             scene.gather();
             const std::lock_guard lock(mutex);
             hash = stateHash(scene.particleHandler.store());
