@@ -128,14 +128,20 @@ RememberedContacts ContactSystem::takeRemembered(const Grains& grains) {
 void ContactSystem::gatherCounts() {
     contactEvents.gather(allRanks);
     liquid.gather();
-    const auto gathered = [&](const auto& watch) {
-        auto all = sharing->ofAll(watch);
-        for (std::size_t q = 1; q < all.size(); ++q) all[0].add(all[q]);
-        return all[0];
-    };
-    overlapWatch = gathered(overlapWatch);
-    capillaryWatch = gathered(capillaryWatch);
+    overlapWatch = overlaps();
+    capillaryWatch = capillaryNumbers();
 }
+
+/// What all ranks have seen, where each has seen what is its own.
+template <class Watch>
+static Watch seenByAll(const Watch& own, GrainSharing* sharing) {
+    if (!sharing || !sharing->areDistributed()) return own;
+    auto all = sharing->ofAll(own);
+    for (std::size_t q = 1; q < all.size(); ++q) all[0].add(all[q]);
+    return all[0];
+}
+OverlapWatch ContactSystem::overlaps() const { return seenByAll(overlapWatch, sharing); }
+CapillaryWatch ContactSystem::capillaryNumbers() const { return seenByAll(capillaryWatch, sharing); }
 
 /// What has been counted so far, or was in a restart file, counts there.
 void ContactSystem::leaveCountsToFirstRank() {

@@ -50,14 +50,14 @@ std::size_t bridgesOut(const Scene& scene) {
 /// A sentence for each domain that the scene has left; no commas in it.
 std::vector<std::string> warnings(const Scene& scene, bool atEnd) {
     std::vector<std::string> found;
-    const OverlapWatch& overlaps = scene.contacts().overlaps();
+    const OverlapWatch overlaps = scene.contacts().overlaps();
     const OverlapLimit limit = scene.laws().overlapLimit;
     if (overlaps.countAbove() > 0)
         found.push_back(fmt::format(
             "{}: overlaps were above {} of the effective radius in {} evaluations of contacts and the "
             "largest was {:.3g}; take stiffer grains or lower speeds and loads",
             limit.law, limit.largest, overlaps.countAbove(), overlaps.largestOverlap()));
-    const CapillaryWatch& numbers = scene.contacts().capillaryNumbers();
+    const CapillaryWatch numbers = scene.contacts().capillaryNumbers();
     if (numbers.countAbove() > 0)
         found.push_back(fmt::format(
             "bridges were drawn at capillary numbers above the largestCapillaryNumber of their law in {} "
@@ -171,7 +171,7 @@ void addHealth(SummaryRows& rows, const Scene& scene) {
 }
 
 void addDomain(SummaryRows& rows, const Scene& scene) {
-    const OverlapWatch& overlaps = scene.contacts().overlaps();
+    const OverlapWatch overlaps = scene.contacts().overlaps();
     rows.addNumber("largest overlap met", overlaps.largestOverlap(), "of the effective radius");
     rows.add("evaluations out of domain", overlaps.countAbove());
     if (scene.laws().hasLargestCapillaryNumber)

@@ -59,11 +59,11 @@ inline std::vector<double> toldBy(const Scene& scene) {
     told.push_back(static_cast<double>(scene.particleHandler.getSize()));
     told.push_back(static_cast<double>(scene.contacts().counts().acting));
     const ContactSystem& contacts = scene.contacts();
-    told.push_back(scene.largestOfRanks(contacts.overlaps().largestOverlap()));
-    told.push_back(scene.largestOfRanks(contacts.capillaryNumbers().largestNumber()));
+    told.push_back(contacts.overlaps().largestOverlap());
+    told.push_back(contacts.capillaryNumbers().largestNumber());
     for (const std::uint64_t count :
          {contacts.overlaps().countAbove(), contacts.capillaryNumbers().countAbove()})
-        told.push_back(scene.sumOverRanks(static_cast<double>(count)));
+        told.push_back(static_cast<double>(count));
     for (const auto& entry : EnergyLedger::entries()) told.push_back(scene.energyLedger().*entry.member);
     for (std::size_t w = 0; w < scene.wallHandler.getSize(); ++w) {
         if (scene.wallHandler.isRemoved(w)) continue;
