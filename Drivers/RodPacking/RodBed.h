@@ -84,8 +84,9 @@ public:
         return constants::pi / 6 * std::pow(options.diameter, 3);
     }  // m^3
     /// Kinetic energy of a rod, on average, over m g d.
+    /// On several ranks all of them must call this together.
     [[nodiscard]] double restlessness() {
-        return kineticEnergy(particleHandler.store()) /
+        return (getKineticEnergy() + getRotationalEnergy()) /
                (static_cast<double>(options.number) * density * rodVolume() * gravity * options.diameter);
     }
 

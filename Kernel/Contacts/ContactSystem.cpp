@@ -128,14 +128,20 @@ RememberedContacts ContactSystem::takeRemembered(const Grains& grains) {
 void ContactSystem::gatherCounts() {
     contactEvents.gather(allRanks);
     liquid.gather();
-    const auto gathered = [&](const auto& watch) {
-        auto all = sharing->ofAll(watch);
-        for (std::size_t q = 1; q < all.size(); ++q) all[0].add(all[q]);
-        return all[0];
-    };
-    overlapWatch = gathered(overlapWatch);
-    capillaryWatch = gathered(capillaryWatch);
+    overlapWatch = overlaps();
+    capillaryWatch = capillaryNumbers();
 }
+
+/// What all ranks have seen, where each has seen what is its own.
+template <class Watch>
+static Watch seenByAll(const Watch& own, GrainSharing* sharing) {
+    if (!sharing || !sharing->areDistributed()) return own;
+    auto all = sharing->ofAll(own);
+    for (std::size_t q = 1; q < all.size(); ++q) all[0].add(all[q]);
+    return all[0];
+}
+OverlapWatch ContactSystem::overlaps() const { return seenByAll(overlapWatch, sharing); }
+CapillaryWatch ContactSystem::capillaryNumbers() const { return seenByAll(capillaryWatch, sharing); }
 
 /// What has been counted so far, or was in a restart file, counts there.
 void ContactSystem::leaveCountsToFirstRank() {
@@ -248,6 +254,7 @@ void ContactSystem::finishArrival(Grains& grains) {
     rangeOfAll = std::max(rangeOfAll, allRanks.largest(largestRange(*species, grains)));
     const std::shared_ptr<RememberedContacts> remembered = std::exchange(arriving, nullptr);
     distribute(grains, *remembered, 0);
+    sharing->countAll(grains);
     listAgain(grains, *remembered);
     listedOnRanks(grains);
 }
@@ -465,7 +472,10 @@ std::vector<double> ContactSystem::finishRemovals(const Grains& grains) {
         if (one.wall < 0) energies.push_back(one.energy);
         else walls->getObject(static_cast<std::size_t>(one.wall)).loseForce(one.force);
     }
-    if (sharing) sharing->findPlaces(grains);
+    if (sharing) {
+        sharing->findPlaces(grains);
+        sharing->countAll(grains);
+    }
     return energies;
 }
 
@@ -789,6 +799,7 @@ ContactCounts ContactSystem::counts() const {
             all.acting += static_cast<std::size_t>(std::popcount(unsigned{state.touching} | state.bridged));
         }
     }
+    for (std::size_t* const count : {&all.touching, &all.bridged, &all.acting}) *count = allRanks.sum(*count);
     return all;
 }
 

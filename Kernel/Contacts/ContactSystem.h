@@ -169,14 +169,18 @@ public:
     /// The memory (bytes) that the contacts take.
     [[nodiscard]] std::size_t bytes() const { return contacts.bytes(); }
     [[nodiscard]] std::size_t rebuildCount() const { return rebuilds; }
-    /// The overlaps of all contacts since the scene began.
-    [[nodiscard]] const OverlapWatch& overlaps() const { return overlapWatch; }
+    /// The overlaps of all contacts since the scene began; on several ranks those of all, which call this
+    /// together.
+    [[nodiscard]] OverlapWatch overlaps() const;
+    /// Those that this rank has seen.
+    [[nodiscard]] const OverlapWatch& ownOverlaps() const { return overlapWatch; }
     /// Takes the largest overlap to come, over the effective radius: see OverlapWatch::expect().
     void expectOverlaps(double largest) { overlapWatch.expect(largest); }
-    [[nodiscard]] const CapillaryWatch& capillaryNumbers() const { return capillaryWatch; }
+    /// On several ranks of all, as overlaps().
+    [[nodiscard]] CapillaryWatch capillaryNumbers() const;
 
     // Of the last step.
-    /// On several ranks, those that count here; sumOverRanks() of a scene has all of them.
+    /// On several ranks those of all, which call this together.
     [[nodiscard]] ContactCounts counts() const;
     [[nodiscard]] bool touches(std::size_t contact) const { return contacts.touches(contact); }
     [[nodiscard]] bool isBridged(std::size_t contact) const { return contacts.isBridged(contact); }

@@ -330,6 +330,11 @@ void BodyHandler::removeObject(std::size_t number) {
     for (const std::uint32_t identity : identities) particles.removeObject(identity);
 }
 
+std::size_t BodyHandler::getSize() const {
+    ParticleHandler::Inside::requireAll(particles, "bodyHandler.getSize()");
+    return particles.store().bodies.size();
+}
+
 BodyReference BodyHandler::getObject(std::size_t number) {
     const ParticleStore& grains = particles.store();
     const std::uint32_t at = grains.bodies.find(number);

@@ -89,7 +89,8 @@ public:
     /// Removes a body and all its grains.
     void removeObject(std::size_t number);
 
-    [[nodiscard]] std::size_t getSize() const { return particles.store().bodies.size(); }
+    /// Throws InputError where each rank of a scene has its own bodies only, until gather().
+    [[nodiscard]] std::size_t getSize() const;
     [[nodiscard]] bool isEmpty() const { return getSize() == 0; }
     /// The body with this number. Throws InputError if there is none.
     [[nodiscard]] BodyReference getObject(std::size_t number);

@@ -38,6 +38,7 @@ void takeBodies(Message& message, RigidBodies& bodies, bool areGhosts) {
 void GrainSharing::distribute(ParticleStore& grains, const PeriodicBox& box, double reach,
                               const Luggage& luggage) {
     times.beginList(exchange);
+    if (!isDistributed) countInAll = grains.count();
     // After an output the cuts are those from before it: the first rank does not know what its own take.
     const bool isAfterOutput = !std::exchange(wereOwn, {}).empty();
     const double before = done.cutting;
@@ -160,7 +161,14 @@ void GrainSharing::gather(ParticleStore& grains, const PeriodicBox& box, const L
     grains.bodies.sort();
 }
 
+void GrainSharing::countAll(const ParticleStore& grains) {
+    auto own = static_cast<std::int64_t>(grains.count());
+    exchange.addUp({&own, 1});
+    countInAll = static_cast<std::size_t>(own);
+}
+
 void GrainSharing::dropOthers(ParticleStore& grains) {
+    countInAll = grains.count();
     std::vector<std::uint32_t> own, bodies;
     for (std::uint32_t k = 0; k < grains.ownSize(); ++k)
         if (!grains.isGap(k) && wereOwn[grains.identity[k]]) own.push_back(k);

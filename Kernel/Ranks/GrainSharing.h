@@ -100,6 +100,10 @@ public:
     [[nodiscard]] std::vector<Value> ofAll(const Value& own) {
         return exchange.ofAll(own);
     }
+    /// How many grains all ranks have together, as of the last list or the last time that they were counted.
+    [[nodiscard]] std::size_t countOfAll() const { return countInAll; }
+    /// Counts them where grains have come or gone: all ranks call it.
+    void countAll(const ParticleStore& grains);
     /// Whether each rank has its own grains only: from the first list on, until they are gathered.
     [[nodiscard]] bool areDistributed() const { return isDistributed; }
     [[nodiscard]] RankCounts counts() const;
@@ -135,6 +139,7 @@ private:
     bool isDistributed = false;
     std::uint32_t onAllFrom = ~std::uint32_t{0};
     std::vector<bool> wereOwn;  // of each identity, before the first rank got all grains; empty: it has not
+    std::size_t countInAll = 0;
     RankCounts done;
     using OfEachRank = std::vector<std::vector<std::uint32_t>>;
     OfEachRank sent, got;                          // identities of ghosts, to and from each rank

@@ -2,6 +2,7 @@
 
 #include "Kernel/Base/Cache.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Contacts/EventsOfRanks.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/Ranks/ProgramRanks.h"
@@ -30,6 +31,7 @@ Scene::Scene() : inside(std::make_unique<Inside>(*this)) {
         const StepTimes::Within sum(stepTimer(), StepTimes::Part::Sum);
         GrainPart::finishLeftStep(inside->context);
     });
+    ParticleHandler::Inside::callToCountAll(particleHandler, [this] { return inside->sharing->countOfAll(); });
     wallHandler.callBeforeRemoval([this](int wall) {
         inside->bookEnergyOfEnded(inside->contacts.endContactsAtWall(particleHandler.store(), wall));
     });
@@ -59,7 +61,10 @@ void Scene::onFirstRank(const std::function<void()>& write) { inside->onFirstRan
 double Scene::agreeOnLargest(double own) { return isShared() ? inside->sharing->largest(own) : own; }
 
 void Scene::tellEvents() {
-    const std::vector<ContactEvent> told = contactEvents();  // gather() in the hook brings others
+    if (!contacts().events().isListening()) return;
+    if (inside->isDistributed())
+        inside->eventsOfAll = pendular::eventsOfAll(contacts().events(), contacts().ranks());
+    const std::vector<ContactEvent> told = contactEvents();  // the hook may listen no more
     for (const ContactEvent& event : told) actionsOnContactEvent(event);
 }
 
@@ -195,8 +200,12 @@ const Evaporation& Scene::getEvaporation() const { return contacts().movingLiqui
 bool Scene::movesLiquid() const { return contacts().movesLiquid(); }
 double Scene::liquidOfWall(std::size_t wall) const { return contacts().liquidOfWall(wall); }
 LiquidLedger Scene::liquidLedger() const { return inside->liquidLedger(); }
-const std::vector<ContactEvent>& Scene::contactEvents() const { return contacts().events().ofStep(); }
-const ContactEventCounts& Scene::contactEventCounts() const { return contacts().events().counts(); }
+const std::vector<ContactEvent>& Scene::contactEvents() const {
+    return inside->isDistributed() ? inside->eventsOfAll : contacts().events().ofStep();
+}
+ContactEventCounts Scene::contactEventCounts() const {
+    return countsOfAll(contacts().events(), contacts().ranks());
+}
 bool Scene::acceptsUnstableTimeStep() const { return inside->context.acceptsUnstableStep; }
 int Scene::getNumberOfThreads() const { return inside->context.threads; }
 Vec3D Scene::getGravity() const { return toEigen(inside->context.gravity); }
@@ -219,6 +228,11 @@ LiquidLedger Scene::Inside::liquidLedger() const {
 }
 
 std::vector<ObservedContact> Scene::interactions() const {
+    ParticleHandler::Inside::requireAll(particleHandler, "interactions()");
+    return ownInteractions();
+}
+
+std::vector<ObservedContact> Scene::ownInteractions() const {
     std::vector<ObservedContact> all;
     const ParticleStore& grains = particleHandler.store();
     contacts().forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
@@ -262,6 +276,7 @@ double Scene::sumOverRanks(double own) const {
     sum.add(own);
     return contacts().ranks().sum(sum);
 }
+void Scene::sumOverRanks(std::span<ExactSum* const> own) const { contacts().ranks().addUp(own); }
 double Scene::largestOfRanks(double own) const { return contacts().ranks().largest(own); }
 
 }  // namespace pendular

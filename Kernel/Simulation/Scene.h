@@ -36,6 +36,7 @@ namespace pendular {
 
 class AdaptiveStep;
 class ContactSystem;
+class ExactSum;
 class Exchange;
 struct GrainSizes;
 struct RankCounts;
@@ -52,7 +53,8 @@ public:
     virtual void setupInitialConditions() {}
 
     /// Called after a step, before actionsAfterTimeStep(), for each start and end of a touch or a bridge in
-    /// it, in the order of identities; only after listenToContacts().
+    /// it, in the order of identities; only after listenToContacts(). On several ranks each of them is called
+    /// for the events of all.
     virtual void actionsOnContactEvent(const ContactEvent& /*event*/) {}
 
     /// Inserts grains that overlap nothing, at set-up or from a hook, after the walls that are to hold them.
@@ -145,15 +147,17 @@ public:
     /// Threads, at least 1; the results do not depend on their number.
     void setNumberOfThreads(int count);
     /// The scene shares its grains with other ranks (Kernel/Ranks): each sets up all of it, and from
-    /// initialise() on has its own grains only; the results do not depend on the number of ranks. What a
-    /// scene tells of grains and contacts is that of its own, until gather(). Before the run; the exchange
-    /// must outlive it. Where mpirun or srun has started several processes, solve(), runTo() and runSteps()
-    /// share the scene without this call.
+    /// initialise() on has its own grains only; the results do not depend on the number of ranks. What needs
+    /// all grains or contacts is refused until gather(); SumsOverRanks.h has sums over all. Before the run;
+    /// the exchange must outlive it. Where mpirun or srun has started several processes, solve(), runTo() and
+    /// runSteps() share the scene without this call.
     void setRanks(Exchange& exchange, const RankOptions& options);
     void gather() override;
     /// The exact sum, or the largest, of a number of which each rank gives its own part: for hooks, which all
     /// ranks call in the same order. On one rank it is the number itself.
     [[nodiscard]] double sumOverRanks(double own) const;
+    /// Each of these sums of own parts becomes that of all ranks.
+    void sumOverRanks(std::span<ExactSum* const> own) const;
     [[nodiscard]] double largestOfRanks(double own) const;
     /// What this rank has done; nothing without others.
     [[nodiscard]] RankCounts rankCounts() const;
@@ -207,10 +211,10 @@ public:
 
     /// From now on the starts and ends of touches and bridges are found in each step; off by default.
     void listenToContacts(bool listen = true);
-    /// The events of the last step, and how many there have been. On several ranks, of contacts whose body 1
-    /// is here.
+    /// The events of the last step, and how many there have been; on several ranks those of all. All ranks
+    /// must call contactEventCounts() together.
     [[nodiscard]] const std::vector<ContactEvent>& contactEvents() const;
-    [[nodiscard]] const ContactEventCounts& contactEventCounts() const;
+    [[nodiscard]] ContactEventCounts contactEventCounts() const;
 
     /// A number that is kept of each contact from now on, by name: from its first touch or bridge, when it
     /// has the initial value, until it neither touches nor is bridged. It is in restart files and in the
@@ -219,9 +223,12 @@ public:
     ContactColumnReference addContactColumn(const std::string& columnName, const std::string& unit,
                                             double initial = 0);
 
-    /// All contacts that have a force, in the order of identities, as of the last step.
+    /// All contacts that have a force, in the order of identities, as of the last step. Throws InputError
+    /// where each rank has its own grains only: call gather() before, or take sumOverInteractions().
     [[nodiscard]] std::vector<ObservedContact> interactions() const;
-    /// The contacts of one grain. Throws InputError if there is no such grain.
+    /// Those that count on this rank, which owns their grain 1; on one rank, and after gather(), all.
+    [[nodiscard]] std::vector<ObservedContact> ownInteractions() const;
+    /// All contacts of one grain, which this rank owns. Throws InputError if there is no such grain.
     [[nodiscard]] std::vector<ObservedContact> interactionsOf(std::size_t identity) const;
     /// The force (N) of all contacts on a grain, also on one that is held in place; without its weight.
     [[nodiscard]] Vec3D contactForceOn(std::size_t identity) const;
@@ -253,7 +260,8 @@ public:
     [[nodiscard]] double stabilityLimit(std::span<const SphericalParticle> toCome);
     /// The step (s) up to which the contacts that there are now are stable, with their overlaps, neighbours
     /// and directions, friction that sticks, and the spins (ContactBounds); infinite where none acts. It says
-    /// nothing of contacts to come: take a share of it, or setAdaptiveTimeStep(). After initialise().
+    /// nothing of contacts to come: take a share of it, or setAdaptiveTimeStep(). After initialise(); all
+    /// ranks must call it together.
     [[nodiscard]] double stableStepOfContacts();
     /// Which assumption of stabilityLimit() binds, and what is there instead. After initialise().
     [[nodiscard]] StabilityAdvice stabilityAdvice();

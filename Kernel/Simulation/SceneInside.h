@@ -135,6 +135,7 @@ public:
     bool gravityChanged = false;                   // since the run began
     bool lawsAreNew = false;                       // prepared ones are to be made again
     bool noRoomWasTold = false;                    // of insert() in the run
+    std::vector<ContactEvent> eventsOfAll;         // of the last step, where ranks have their own grains only
     std::optional<GrainSharing> sharing;           // none: the scene has all grains
 
 private:

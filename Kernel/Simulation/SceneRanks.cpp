@@ -25,7 +25,7 @@ void Scene::Inside::onFirstRank(const std::function<void()>& write) {
 
 RunNumbers Scene::Inside::numbersOfAll() {
     const ParticleStore& grains = scene.particleHandler.store();
-    RunNumbers own{scene.particleHandler.getSize(), 0, kineticEnergy(grains)};
+    RunNumbers own{grains.count(), 0, kineticEnergy(grains)};
     // A contact of two ranks counts where its first body is.
     contacts.forEachActing(grains, [&](const Bucket&, std::uint32_t) { ++own.contacts; });
     RunNumbers all;

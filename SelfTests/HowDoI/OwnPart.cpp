@@ -14,7 +14,7 @@ struct StillAir : StepPart {
         return {&bodies, 1};
     }
     void prepare(StepContext& step) override {
-        for (GrainReference grain : step.particles) {
+        for (GrainReference grain : step.particles.ownGrains()) {
             if (grain.isFixed()) continue;
             const double rate = 6 * M_PI * viscosity * grain.getRadius() / grain.getMass();
             const Vec3D before = grain.getVelocity();

@@ -7,7 +7,7 @@
 
 #include "BuildFolders.h"
 #include "Kernel/State/RestartFile.h"
-#include "SelfTests/Support/Dependency.h"
+#include "SelfTests/Programs/OnRanks.h"
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/SameFiles.h"
 #include "SelfTests/Support/TestFolder.h"
@@ -21,16 +21,6 @@ namespace fs = std::filesystem;
 constexpr std::string_view timed = "summary.csv";  // such files tell times of the clock
 const std::string program = (folders::binary / "SelfTests/rank-program").string() + " ";
 
-/// Of more ranks than there are processors, and by any user. Where other programs take most of the time,
-/// ranks wait long for each other.
-/// @param longest s, that it may take
-std::string onRanks(int count, int longest = 120) {
-    return fmt::format(
-        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout {} mpirun "
-        "--oversubscribe -n {} ",
-        longest, count);
-}
-
 std::size_t countOf(const std::string& text, const std::string& part) {
     const std::regex pattern(part);
     return static_cast<std::size_t>(
@@ -40,9 +30,7 @@ std::size_t countOf(const std::string& text, const std::string& part) {
 class Mpi : public testing::Test {
 protected:
     void SetUp() override {
-        if (isMissing(fs::exists(folders::binary / "PendularMpi.so") && run("mpirun --version").exitCode == 0,
-                      "libopenmpi-dev"))
-            GTEST_SKIP() << without("libopenmpi-dev", "a run on several processes");
+        if (areRanksMissing()) GTEST_SKIP() << without("libopenmpi-dev", "a run on several processes");
     }
     const TestFolder folder;
     [[nodiscard]] std::string in(const std::string& name) const { return (folder.path() / name).string(); }

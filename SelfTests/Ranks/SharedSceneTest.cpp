@@ -135,7 +135,7 @@ public:
 private:
     void actionsAfterTimeStep() override {
         if (getNumberOfTimeSteps() % 2000 != 0) return;
-        for (GrainReference grain : particleHandler) {
+        for (GrainReference grain : particleHandler.ownGrains()) {
             const auto id = static_cast<int>(grain.getId());
             grain.setVelocity(0.5 * Vec3D(id % 3 - 1, id / 3 % 3 - 1, id / 9 % 3 - 1));
         }

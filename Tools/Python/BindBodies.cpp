@@ -90,9 +90,10 @@ std::uint32_t join(PythonScene& scene, const ArrayLike& identities, std::optiona
 
 /// Columns of all bodies, in the order of their numbers.
 py::dict bodies(PythonScene& scene) {
+    scene.requireRows("bodies()");
     Scene& of = scene.scene();
     std::map<std::uint32_t, bool> numbers;
-    for (const GrainReference grain : of.particleHandler)
+    for (const GrainReference grain : of.particleHandler.ownGrains())
         if (const auto body = of.bodyHandler.bodyOf(grain.getId())) numbers[*body] = true;
     const auto rows = static_cast<py::ssize_t>(numbers.size());
     std::vector<std::int64_t> ids;

@@ -10,6 +10,7 @@ namespace pendular::python {
 namespace {
 
 py::dict contacts(const PythonScene& scene) {
+    scene.requireRows("contacts()");
     std::vector<PolyDataField> fields;
     {
         const PythonScene::WithoutPython others(scene);
@@ -83,7 +84,8 @@ ContactColumnReference& columnNamed(PythonScene& scene, const std::string& name)
 
 void setColumn(PythonScene& scene, const std::string& name, const ArrayLike& values) {
     ContactColumnReference& column = columnNamed(scene, name);
-    const std::vector<ObservedContact> seen = scene.scene().interactions();
+    scene.requireRows("set_contact_column()");
+    const std::vector<ObservedContact> seen = scene.scene().ownInteractions();
     const PerGrain rows(values, name, 1, static_cast<py::ssize_t>(seen.size()));
     for (std::size_t k = 0; k < seen.size(); ++k) column[seen[k]] = rows.number(static_cast<py::ssize_t>(k));
 }
@@ -113,7 +115,7 @@ void bindContacts(SceneClass& scene) {
             "event_counts",
             [](const PythonScene& s) {
                 requireListening(s);
-                const ContactEventCounts& counts = s.scene().contactEventCounts();
+                const ContactEventCounts counts = s.scene().contactEventCounts();
                 py::dict made;
                 made["touches_begun"] = counts.touchesBegun, made["touches_ended"] = counts.touchesEnded;
                 made["bridges_formed"] = counts.bridgesFormed,

@@ -178,9 +178,8 @@ void bindRun(SceneClass& scene) {
             "Numbers and arrays by name that are kept in restart files: what functions of the driver "
             "remember from step to step. Give all of them, with their types and shapes, before the run; rows "
             "of one dimension may have grown in the file.")
-        .def(
-            "leave_grains_on_ranks", [](PythonScene& s, bool leave) { s.scene().leaveGrainsOnRanks(leave); },
-            py::arg("leave") = true, comment("Run::leaveGrainsOnRanks", "leave: or no more."))
+        .def("leave_grains_on_ranks", &PythonScene::leaveGrainsOnRanks, py::arg("leave") = true,
+             comment("Run::leaveGrainsOnRanks", "leave: or no more."))
         .def("keep_restart_file", &PythonScene::keepRestartFile, py::arg("interval") = 600.0,
              py::arg("steps") = 0,
              "Keeps NAME-restart.h5: written at the start and the end of the run, at Ctrl-C, whenever the "
