@@ -150,7 +150,7 @@ public:
             isInside.push_back(layer.contains(rod.getPosition().z()));
             if (!isInside.back()) continue;
             means.rods += 1;
-            const double cosine = (rod.getOrientation() * Vec3D::UnitX()).z();  // of the least moment
+            const double cosine = (rod.getPrincipalAxes() * Vec3D::UnitX()).z();  // of the least moment
             if (aspectRatio > 1) means.order += 1.5 * cosine * cosine - 0.5;
         }
         std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;  // of rods

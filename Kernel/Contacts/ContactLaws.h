@@ -24,6 +24,7 @@ class ContactStore;
 class GrainShapes;
 struct Bucket;
 struct PeriodicBox;
+struct SetValues;
 class HeldBits;
 struct TranslationRecord;
 struct RotationRecord;
@@ -97,6 +98,8 @@ public:
     /// @param changedInRun whether values have been changed since the run began
     virtual void visitState(StateArchive& archive, bool& changedInRun) = 0;
     [[nodiscard]] virtual std::vector<FieldValue> fields(int a, int b) const = 0;
+    /// Of each species, and of each pair that the driver has given values of its own.
+    [[nodiscard]] virtual std::vector<SetValues> setValues() = 0;
 
     [[nodiscard]] virtual double range(int a, int b, const Bodies& bodies) const = 0;
     [[nodiscard]] virtual std::optional<std::string> objection(int a, int b, const Bodies& bodies) const = 0;

@@ -26,6 +26,7 @@ public:
     void visitState(StateArchive& archive, bool& changedInRun) override {
         species.visitState(archive, changedInRun);
     }
+    [[nodiscard]] std::vector<SetValues> setValues() override { return species.setValues(); }
     [[nodiscard]] std::vector<FieldValue> fields(int a, int b) const override {
         return ofPair(a, b).fields(a, b);
     }

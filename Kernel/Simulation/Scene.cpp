@@ -190,6 +190,8 @@ void Scene::addOwnPart(std::unique_ptr<StepPart> part) {
     inside->parts.add(std::move(part));
 }
 
+bool Scene::hasPart(std::string_view name) const { return inside->parts.hasOwn(name); }
+
 // Functions that say what the scene has:
 
 double Scene::getShearRate() const { return inside->flow.shearRate(); }

@@ -184,6 +184,8 @@ public:
         addOwnPart(std::move(part));
         return added;
     }
+    /// Whether a part of this name was added by addPart().
+    [[nodiscard]] bool hasPart(std::string_view name) const;
 
     /// In a scene in which liquid moves: it dries so. At set-up only.
     void setEvaporation(const Evaporation& law);

@@ -23,6 +23,10 @@ void StepList::add(std::unique_ptr<StepPart> part) {
     own.push_back(std::move(part));
 }
 
+bool StepList::hasOwn(std::string_view name) const {
+    return std::ranges::any_of(own, [&](const auto& part) { return part->name() == name; });
+}
+
 Features StepList::wake(const StepContext& context) {
     Features all;
     awake.clear();

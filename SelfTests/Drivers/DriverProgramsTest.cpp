@@ -346,7 +346,8 @@ TEST(HopperDischarge, writesCurvesAndFlows) {
     ASSERT_EQ(result.exitCode, 0) << result.output;
     EXPECT_NE(result.output.find("Beverloo's law: C = "), std::string::npos);
     EXPECT_EQ(headerOf(folder.path() / "discharge.csv"), "orifice_m,time_s,mass_kg");
-    EXPECT_EQ(headerOf(folder.path() / "flow.csv"), "orifice_m,flow_kg/s,change_of_flow,beverloo_kg/s");
+    EXPECT_EQ(headerOf(folder.path() / "flow.csv"),
+              "orifice_m,flow_kg/s,change_of_flow,beverloo_kg/s,flow_error_kg/s,head_at_end");
     std::map<double, double> mass;
     for (const auto& row : rowsOf(folder.path() / "discharge.csv")) {
         EXPECT_GE(row[2], mass[row[0]]) << "mass never comes back";

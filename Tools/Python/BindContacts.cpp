@@ -23,6 +23,11 @@ py::dict contacts(const PythonScene& scene) {
     return made;
 }
 
+/// As arrays have it: -1 at a wall.
+std::int64_t partnerOf(std::uint32_t particle2, std::uint32_t none) {
+    return particle2 == none ? std::int64_t{-1} : std::int64_t{particle2};
+}
+
 /// The contacts of one grain, which are a few: without a look at all others.
 py::dict contactsOf(const PythonScene& scene, std::size_t identity) {
     const std::vector<ObservedContact> seen = scene.scene().interactionsOf(identity);
@@ -33,9 +38,8 @@ py::dict contactsOf(const PythonScene& scene, std::size_t identity) {
     };
     py::dict made;
     made["particle1"] = column([](const ObservedContact& c) { return std::int64_t{c.particle1}; });
-    made["particle2"] = column([](const ObservedContact& c) {
-        return c.wall < 0 ? static_cast<std::int64_t>(c.particle2) : std::int64_t{-1};
-    });
+    made["particle2"] =
+        column([](const ObservedContact& c) { return partnerOf(c.particle2, ObservedContact::none); });
     made["wall"] = column([](const ObservedContact& c) { return static_cast<std::int64_t>(c.wall); });
     made["force_N"] = column([](const ObservedContact& c) { return c.force; });
     made["normal_force_N"] = column([](const ObservedContact& c) { return c.normalForce; });
@@ -61,7 +65,7 @@ py::dict takeEvents(PythonScene& scene) {
     for (std::size_t k = 0; k < count; ++k) {
         const auto& [when, event] = scene.events[k];
         time[k] = when, first[k] = event.particle1;
-        second[k] = event.particle2 == ContactEvent::none ? -1 : event.particle2;
+        second[k] = partnerOf(event.particle2, ContactEvent::none);
         wall[k] = event.wall, kind[k] = static_cast<std::int64_t>(event.kind);
     }
     scene.events.clear();

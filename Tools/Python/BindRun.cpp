@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "Kernel/Parts/AdaptiveStep.h"
+#include "Kernel/Simulation/ChosenTimeStep.h"
 #include "Kernel/Simulation/OverlapEstimate.h"
 #include "Kernel/Species/LawNames.h"
 #include "Tools/Python/Bindings.h"
@@ -18,17 +19,9 @@ const Integrator& integratorNamed(const std::string& name) {
     unknownName("integrator", name, {names.begin(), names.end()});
 }
 
-/// The smaller of the stability limit and a share of the shortest contact.
 double chooseTimeStep(PythonScene& scene, double stepsInContact) {
-    checkValue("choose_time_step", "steps_in_contact", stepsInContact, "", positive);
-    Scene& of = scene.scene();
-    const double step = std::min(of.stabilityLimit(), of.shortestContactTime() / stepsInContact);
-    if (!(step < infinity))
-        throw InputError(
-            "choose_time_step() finds no contact that could be: it comes after grains are there, or inlets "
-            "that add them.");
-    of.setTimeStep(step);
-    return of.getTimeStep();
+    scene.scene().setTimeStep(chosenTimeStep(scene.scene(), stepsInContact));
+    return scene.scene().getTimeStep();
 }
 
 void bindTime(SceneClass& scene) {
