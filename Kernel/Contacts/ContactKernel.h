@@ -149,7 +149,10 @@ public:
                          PullsInContact<Normal> ? bridged | touching : bridged);
             if constexpr (ShapedGeometry<Geometry>) geometry.writeArms(memory, block);
         }
-        if constexpr (Creeps<Normal>) creep(block, normal.contact, touching);
+        if constexpr (Creeps<Normal>)
+            if (ledger) [[unlikely]]
+                writeCreep(block, copyOf(normal.contact.overlap), copyOf(normal.contact.effectiveRadius),
+                           copyOf(normal.contact.effectiveMass), touching, normal.creep);
         Vector<Pack> tangential = zero(), lastTorque = zero();
         if constexpr (resists >= BridgeResists::Rolling) lastTorque = loadTorques(block);
         if constexpr (Friction::acts) {
@@ -184,6 +187,11 @@ private:
         Vector<Pack> leverless;  // N, n x F; zero without friction
         Pack normalForce;        // N
     };
+    /// What eight contacts remember before and after their creep in the step.
+    struct Creep {
+        NormalHistory<Pack> before, after;
+    };
+    struct NoCreep {};
     struct NormalPart {
         Pack repulsion;  // N, elastic and damping
         Pack elastic;    // N
@@ -198,6 +206,7 @@ private:
         SampleTiming<Pack> timing;
         Mask closing;  // the touch ends in the step that comes
         Mask snaps;    // the neck does, of an attraction that jumps at its ends
+        [[no_unique_address]] std::conditional_t<Creeps<Normal>, Creep, NoCreep> creep;
     };
 
     /// The normal force with the approach speed at the end of the step. Grains carry the predicted velocity v
@@ -216,11 +225,16 @@ private:
         part.lever = part.contact.overlap;
         if constexpr (resists >= BridgeResists::Sliding) part.lever = g.lever;
         auto history = memory.normalHistory.load<NormalHistory>(block);
+        if constexpr (Creeps<Normal>) {
+            part.creep.before = history;
+            Normal::creep(laws.normal, part.contact, Pack(timeStep), history);
+            part.creep.after = history;
+        }
         NormalForce<Pack> force = normalForce<Normal>(laws.normal, part.contact, history);
         memory.normalHistory.store<NormalHistory>(block, selectColumns<NormalHistory>(touching, history));
         force.damping = select(touching, force.damping, Pack(0));
 
-        const Pack halfStep = Pack(0.5 * implicitStep) * g.inverseMass;
+        const Pack halfStep = Pack(implicitNeighbours<Adhesion> * 0.5 * implicitStep) * g.inverseMass;
         const Pack predicted = dot(g.velocity, g.normal);
         Pack known = -adhesive;  // N, the repulsion that needs no speed, without the elastic one
         if constexpr (resists != BridgeResists::Nothing) {
@@ -290,16 +304,6 @@ private:
             part.viscous = fma(part.resistance.normal, part.approach, part.resistance.force);
         part.repulsion = select(touching, fma(part.damping, part.approach, force.elastic), Pack(0));
         return part;
-    }
-
-    /// Brings what eight contacts remember on by the step, at their overlaps.
-    void creep(std::size_t block, const Contact<Pack>& contact, Mask touching) {
-        auto history = memory.normalHistory.load<NormalHistory>(block);
-        Normal::creep(laws.normal, contact, Pack(timeStep), history);
-        memory.normalHistory.store<NormalHistory>(block, selectColumns<NormalHistory>(touching, history));
-        if (ledger) [[unlikely]]
-            writeCreep(block, copyOf(contact.overlap), copyOf(contact.effectiveRadius),
-                       copyOf(contact.effectiveMass), touching);
     }
 
     /// The ways (m) of tangential springs that are at their place at the force, and so move for the time from
@@ -407,7 +411,7 @@ private:
     Vector<Pack> computeDrag(std::size_t block, const ContactGeometry<Pack>& g,
                              const Vector<Pack>& lastLeverless, const Vector<Pack>& lastTorque, Mask bridged,
                              const BridgeResistance<Pack>& resistance, const Vector<Pack>& friction) {
-        const Pack response = Pack(3.5 * 0.5 * implicitStep) * g.inverseMass;
+        const Pack response = Pack(implicitNeighbours<Adhesion> * 3.5 * 0.5 * implicitStep) * g.inverseMass;
         const Vector<Pack> sideways = fma(-dot(g.velocity, g.normal), g.normal, g.velocity);
         const Vector<Pack> lever = fma(-response, lastLeverless, g.spinLever);
         Vector<Pack> own = zero();  // N m, of friction
@@ -591,14 +595,19 @@ private:
     }
     /// Writes what the creep of the law has taken of the elastic energy.
     [[gnu::noinline, gnu::cold]] void writeCreep(std::size_t block, Pack overlap, Pack effectiveRadius,
-                                                 Pack effectiveMass, Mask touching) {
+                                                 Pack effectiveMass, Mask touching, Creep creep) {
         for (int k = 0; k < Pack::lanes; ++k) {
             if (!laneOf(touching, k)) continue;
-            const std::size_t at = block * Pack::lanes + static_cast<std::size_t>(k);
-            ContactSample& sample = memory.energies[at].now;
-            const double left = elasticEnergyAt(at, {overlap[k], effectiveRadius[k], effectiveMass[k]});
-            sample.creepLoss = sample.elasticEnergy - left;
-            sample.elasticEnergy = left;
+            NormalHistory<double> before{}, after{};
+            forEachNumber<NormalHistory>(
+                [&](std::size_t c, const Pack& was, const Pack& is) {
+                    reinterpret_cast<double*>(&before)[c] = was[k];
+                    reinterpret_cast<double*>(&after)[c] = is[k];
+                },
+                creep.before, creep.after);
+            const Contact<double> contact{overlap[k], effectiveRadius[k], effectiveMass[k]};
+            memory.energies[block * Pack::lanes + static_cast<std::size_t>(k)].now.creepLoss =
+                Normal::creepLoss(laws.normal, contact, before, after);
         }
     }
     [[gnu::noinline]] void writeSample(std::size_t block, SliderSample ContactSample::*part, Pack forceX,

@@ -13,6 +13,7 @@
 #include "Kernel/Contacts/OverlapWatch.h"
 #include "Kernel/Particles/GrainSpecies.h"
 #include "Kernel/Species/Bodies.h"
+#include "Kernel/Species/ContactSpot.h"
 #include "Kernel/Species/DomainLimit.h"
 #include "Kernel/Species/Law.h"
 #include "Kernel/Species/Stiffness.h"
@@ -113,6 +114,9 @@ public:
     /// N/m, the slope of the normal law at an overlap (m).
     [[nodiscard]] virtual double normalStiffness(int a, int b, const Bodies& bodies,
                                                  double overlap) const = 0;
+    /// Where the bodies touch at an overlap (m).
+    [[nodiscard]] virtual ContactSpot contactSpot(int a, int b, const Bodies& bodies,
+                                                  double overlap) const = 0;
     /// What is out of the domain of each law, with the law's name.
     [[nodiscard]] virtual std::vector<std::pair<std::string_view, DomainLimit>> brokenLimits(
         int a, int b, const Bodies& bodies) const = 0;

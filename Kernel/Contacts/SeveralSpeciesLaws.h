@@ -48,6 +48,11 @@ public:
         const ContactLaws* const laws = find(a, b);
         return laws ? laws->normalStiffness(a, b, bodies, overlap) : 0;
     }
+    /// None where the pair has no laws.
+    [[nodiscard]] ContactSpot contactSpot(int a, int b, const Bodies& bodies, double overlap) const override {
+        const ContactLaws* const laws = find(a, b);
+        return laws ? laws->contactSpot(a, b, bodies, overlap) : ContactSpot{};
+    }
     [[nodiscard]] double largestOverlap(int a, int b) const override {
         const ContactLaws* const laws = find(a, b);
         return laws ? laws->largestOverlapInRun : 0;

@@ -75,6 +75,9 @@ public:
         const Contact<double> contact{overlap, bodies.effectiveRadius(), 1};  // no spring knows the mass
         return Normal::stiffness(static_cast<const Normal&>(of(a, b)).prepare(), contact);
     }
+    [[nodiscard]] ContactSpot contactSpot(int a, int b, const Bodies& bodies, double overlap) const override {
+        return pendular::contactSpot(of(a, b), bodies, overlap);
+    }
     [[nodiscard]] std::vector<std::pair<std::string_view, DomainLimit>> brokenLimits(
         int a, int b, const Bodies& bodies) const override {
         std::vector<std::pair<std::string_view, DomainLimit>> found;

@@ -87,6 +87,19 @@ def test_a_wall_warms():
     heat = scene.heat()
     assert 300 < scene.temperature[0] < 400
     assert heat["from_walls_J"] == pytest.approx(800 * scene.mass[0] * (scene.temperature[0] - 300), rel=1e-10)
+    assert heat["from_each_wall_J"] == {0: pytest.approx(heat["from_walls_J"], rel=1e-12)}
+
+
+def test_softening_is_for_hertzs_contact_radius():
+    """The overlap of a linear spring says nothing of the spot of real grains."""
+    scene = pendular.Scene()
+    stone = scene.add_species("LinearViscoelastic", density=2500, stiffness=1000)
+    scene.add_grains(stone, [[0, 0, 0], [1.99e-3, 0, 0]], 1e-3)
+    scene.conduct_heat(300, softening=0.01)
+    scene.set_heat_material(stone, conductivity=1, heat_capacity=800)
+    scene.time_step = 1e-8
+    with pytest.raises(pendular.InputError, match="softening = 0.01 .* LinearViscoelasticSpecies"):
+        scene.run(steps=1)
 
 
 def test_two_dimensions():
