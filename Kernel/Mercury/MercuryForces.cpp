@@ -44,8 +44,6 @@ void MercuryForces::beforeMotion(StepContext& step) {
 
 void MercuryForces::afterForces(StepContext& step) {
     if (known == Known::None) return;
-    ParticleStore& grains = step.grains();
-    const double time = step.scheme->corrector * step.length;
     for (Pushed& one : pushed) {
         one.load = {};
         ask(MercuryForcedGrain(step.particles.getObject(one.identity), one.load));
@@ -53,6 +51,16 @@ void MercuryForces::afterForces(StepContext& step) {
             throw InputError(
                 fmt::format("particle {}: what computeExternalForces() adds is not finite: ({}, {}, {}) N.",
                             one.identity, one.load.force.x(), one.load.force.y(), one.load.force.z()));
+    }
+}
+
+/// When bonds and other parts have read the velocities: a dashpot that saw the share of this force, and not
+/// yet that of the forces which balance it, would carry some of the force for ever.
+void MercuryForces::accelerate(StepContext& step) {
+    if (known == Known::None) return;
+    ParticleStore& grains = step.grains();
+    const double time = step.scheme->corrector * step.length;
+    for (Pushed& one : pushed) {
         const std::uint32_t place = grains.place[one.identity];
         const HeldBits held = grains.heldAt(place);
         TranslationRecord& moving = grains.translation[place];

@@ -26,7 +26,8 @@ private:
 };
 
 /// The forces that a driver gives each grain in computeExternalForces(), beside those of contacts and
-/// gravity, at the end of each step. They count as given by the driver in the energy ledger.
+/// gravity, at the end of each step, whose time getTime() is then. They count as given by the driver in the
+/// energy ledger.
 class MercuryForces : public StepPart {
 public:
     using Ask = std::function<void(MercuryForcedGrain)>;
@@ -43,6 +44,7 @@ public:
     [[nodiscard]] std::span<const Conflict> ownConflicts() const override;
     void beforeMotion(StepContext& step) override;
     void afterForces(StepContext& step) override;
+    void accelerate(StepContext& step) override;
     void finish(StepContext& step) override;
     void takeBack(StepContext& step) override;
     void visitState(StateArchive& archive, StepContext& scene) override;

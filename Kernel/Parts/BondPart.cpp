@@ -411,7 +411,7 @@ void BondPart::computeLoads(StepContext& step) {
 }
 
 /// Adds a share (s) of the accelerations by bonds to velocities.
-void BondPart::accelerate(StepContext& step, double time) {
+void BondPart::push(StepContext& step, double time) {
     ParticleStore& grains = step.grains();
     for (const Joined& one : joined) {
         if (one.place == PlaceIndex::none) continue;
@@ -423,16 +423,17 @@ void BondPart::accelerate(StepContext& step, double time) {
     }
 }
 
+void BondPart::afterForces(StepContext& step) { computeLoads(step); }
+
 /// The velocities get the part of the new forces that the end of the step gives them: Integrator.h. The
 /// accelerations get theirs when the end has made them of the contacts' forces.
-void BondPart::afterForces(StepContext& step) {
-    computeLoads(step);
+void BondPart::accelerate(StepContext& step) {
     for (Joined& one : joined) {
         if (one.place == PlaceIndex::none) continue;
         one.velocityBefore = step.grains().translation[one.place].velocity;
         one.spinBefore = step.grains().rotation[one.place].spin;
     }
-    accelerate(step, step.scheme->corrector * step.length);
+    push(step, step.scheme->corrector * step.length);
     isAccelerated = true;
 }
 

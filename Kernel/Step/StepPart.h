@@ -61,12 +61,16 @@ public:
     virtual void moveSurroundings(StepContext&) {}
     /// All have moved, and `shifts` are known.
     virtual void afterMotion(StepContext&) {}
+    /// The contacts have their forces: a part finds its own, by the velocities that contacts have seen, which
+    /// it leaves as they are for the parts behind it.
     virtual void afterForces(StepContext&) {}
+    /// All parts have found their forces: velocities get the share of them that the end of the step gives.
+    virtual void accelerate(StepContext&) {}
     /// Grains have the velocities of the end of the step, which is not taken back any more.
     virtual void finish(StepContext&) {}
     /// Grains may come and go.
     virtual void atEnd(StepContext&) {}
-    /// The step has failed in one of the phases from beforeMotion() to afterForces(): the part is as it was
+    /// The step has failed in one of the phases from beforeMotion() to accelerate(): the part is as it was
     /// before it.
     virtual void takeBack(StepContext&) {}
 
