@@ -42,6 +42,7 @@ public:
         return known == Known::None ? Features{} : Features{Feature::OwnPart};
     }
     [[nodiscard]] std::span<const Conflict> ownConflicts() const override;
+    void addAccelerations(StepContext& step, std::span<const std::uint32_t> places) override;
     void beforeMotion(StepContext& step) override;
     void afterForces(StepContext& step) override;
     void accelerate(StepContext& step) override;
@@ -58,6 +59,7 @@ private:
         Vector<double> velocityBefore{0, 0, 0}, spinBefore{0, 0, 0};  // before the part of the new force
     };
     void book(StepContext& step) const;
+    static void changeAcceleration(ParticleStore& grains, std::uint32_t place, const Pushed& one);
 
     Ask ask;
     std::vector<Pushed> pushed;

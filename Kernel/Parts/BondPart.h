@@ -61,6 +61,7 @@ public:
     [[nodiscard]] bool actsOnRanks() const override { return true; }
     [[nodiscard]] std::span<const Conflict> ownConflicts() const override;
     void check(const StepContext& scene) override;
+    void addAccelerations(StepContext& step, std::span<const std::uint32_t> places) override;
     void prepare(StepContext& step) override;
     void beforeMotion(StepContext& step) override;
     void afterForces(StepContext& step) override;

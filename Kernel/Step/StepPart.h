@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string_view>
 
@@ -51,6 +52,10 @@ public:
     virtual void begin(StepContext&, bool /*isRestarted*/) {}
     /// Hooks have changed something; before check().
     virtual void takeOver(StepContext&, const SceneChanges&) {}
+
+    /// Hooks have changed these grains, whose accelerations were found anew of contacts and gravity: the part
+    /// adds those of the forces that it gave in the last step.
+    virtual void addAccelerations(StepContext&, std::span<const std::uint32_t> /*places*/) {}
 
     /// Called before a step, with a whole state: it may still choose the length of the step, or change
     /// velocities (the energy ledger books that as given by the driver). It is not taken back.

@@ -411,6 +411,34 @@ TEST(MercuryForces, restOnDampedBondsAsTheyAre) {
         }
 }
 
+// A hook that changes a grain in each step, so that its acceleration is found anew, leaves it the whole
+// force, also where it is bonded.
+TEST(MercuryForces, stayWhereAHookChangesTheGrain) {
+    struct Growing : Driven {
+        Growing() : Driven(0, 1e-4, integrators::predictedVelocityVerlet) {}
+        void computeExternalForces(MercuryForcedGrain p) override { p->addForce({1e-5, 0, 0}); }
+        void actionsAfterTimeStep() override {
+            auto grain = particleHandler.getObject(0);
+            grain.setRadius(grain.getRadius() * (1 + 1e-12));
+        }
+    } scene;
+    scene.setTimeMax(0.05);
+    scene.solve();
+    // 5 m/s^2, but for 1500 parts in 10^12 of the mass.
+    EXPECT_NEAR(scene.particleHandler.getObject(0).getVelocity().x(), 0.25, 1e-9);
+    struct BondedGrowing : Pulled {
+        BondedGrowing() : Pulled(0.1, integrators::predictedVelocityVerlet) { setTimeMax(0.02); }
+        void actionsAfterTimeStep() override {
+            auto grain = particleHandler.getObject(1);
+            grain.setRadius(grain.getRadius() * (1 + 1e-12));
+        }
+    } bonded;
+    bonded.solve();
+    const BondPart::Bond& bond = bonded.bonds.all().at(0);
+    EXPECT_NEAR(norm(bond.elastic.force), bonded.force.norm(), 1e-8 * bonded.force.norm());
+    EXPECT_LT(norm(bond.damping.force), 1e-8 * bonded.force.norm());
+}
+
 // A part of a driver's own reads the velocities that contacts have seen, wherever it stands in the order.
 TEST(MercuryForces, areNotInTheVelocitiesThatOtherPartsRead) {
     struct Reads : StepPart {
