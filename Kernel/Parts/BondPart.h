@@ -61,9 +61,11 @@ public:
     [[nodiscard]] bool actsOnRanks() const override { return true; }
     [[nodiscard]] std::span<const Conflict> ownConflicts() const override;
     void check(const StepContext& scene) override;
+    void addAccelerations(StepContext& step, std::span<const std::uint32_t> places) override;
     void prepare(StepContext& step) override;
     void beforeMotion(StepContext& step) override;
     void afterForces(StepContext& step) override;
+    void accelerate(StepContext& step) override;
     void finish(StepContext& step) override;
     void takeOver(StepContext& /*scene*/, const SceneChanges& /*changes*/) override { longest.reset(); }
     void takeBack(StepContext& step) override;
@@ -126,7 +128,7 @@ private:
     void refuseStep(const StepContext& step);
     void turnGrains(StepContext& step);
     void computeLoads(StepContext& step);
-    void accelerate(StepContext& step, double time);
+    void push(StepContext& step, double time);
     void breakBonds(StepContext& step);
     [[nodiscard]] double power(const StepContext& step, const Bond& bond, const BondLoad& load) const;
     void account(StepContext& step) const;

@@ -84,7 +84,11 @@ public:
     void measureStepTimes(bool measure = true) { times.measure(measure); }
 
     [[nodiscard]] const std::string& getName() const { return name; }
-    [[nodiscard]] double getTime() const { return timeAfter(steps, stepsBefore, timeBefore, timeStep); }
+    /// s. What is called within a step, when grains and walls have moved (forces of the driver, conditions of
+    /// outlets), gets the time of its end, at which its answer acts; a hook between two steps the same.
+    [[nodiscard]] double getTime() const {
+        return endOfStep ? *endOfStep : timeAfter(steps, stepsBefore, timeBefore, timeStep);
+    }
     [[nodiscard]] double getTimeStep() const { return timeStep; }
     [[nodiscard]] double getTimeMax() const { return timeMax; }
     [[nodiscard]] std::size_t getNumberOfTimeSteps() const { return steps; }
@@ -179,6 +183,19 @@ protected:
     [[nodiscard]] double timeAfterNextStep() const {
         return timeAfter(steps + 1, stepsBefore, timeBefore, timeStep);
     }
+    /// While it lives, getTime() can be the time (s) of the end of the step that is under way.
+    class WithinStep {
+    public:
+        explicit WithinStep(Run& of) : run(of) {}
+        WithinStep(const WithinStep&) = delete;
+        WithinStep& operator=(const WithinStep&) = delete;
+        ~WithinStep() { leave(); }
+        void leave() { run.endOfStep.reset(); }
+
+    private:
+        Run& run;
+    };
+    void goToEndOfStep(double time) { endOfStep = time; }
     [[nodiscard]] StepTimes& stepTimer() { return times; }
     /// Called by the destructor of the class that has all of the scene.
     void completeLeftRun() noexcept;
@@ -257,8 +274,9 @@ private:
     std::size_t saveCount = 0;
     bool leavesGrains = false;
     std::size_t steps = 0, firstStep = 0;
-    std::size_t stepsBefore = 0;  // those with another time step
-    double timeBefore = 0;        // s, when these had been done
+    std::size_t stepsBefore = 0;      // those with another time step
+    double timeBefore = 0;            // s, when these had been done
+    std::optional<double> endOfStep;  // s, within a step whose grains have moved
     bool begun = false;
     bool stepChanged = false;  // since the run began
     RestartSchedule restarts;

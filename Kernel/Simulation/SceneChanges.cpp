@@ -187,6 +187,7 @@ void Scene::Inside::renewAccelerations(const GrainChanges& changes) {
     for (const auto* identities : {&changes.placed, &changes.altered})
         for (const std::uint32_t identity : *identities) places.push_back(grains.place[identity]);
     TimeIntegration::renewAccelerations(grains, contacts.store(), context.gravity, places);
+    parts.addAccelerations(context, places);
 }
 
 bool Scene::Inside::isNewToChecks(std::span<const std::uint32_t> added) const {

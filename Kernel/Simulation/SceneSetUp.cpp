@@ -30,6 +30,7 @@ Scene::Inside::Inside(Scene& of)
       outlets(of.outletHandler),
       inlets(of.inletHandler),
       sprays(of.sprayHandler) {
+    context.parts = &parts;
     context.scheme = &integrator;
     context.checkedSizes = &checkedSizes;
 }

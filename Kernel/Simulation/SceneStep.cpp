@@ -19,6 +19,7 @@ StepContext& Scene::Inside::contextNow(double length) {
 }
 
 void Scene::Inside::advanceByStep(bool another) {
+    WithinStep time(scene);
     takeOverChanges();
     try {
         parts.call(&StepPart::prepare, contextNow(stepLength()));
@@ -29,9 +30,11 @@ void Scene::Inside::advanceByStep(bool another) {
     try {
         moveAndFindForces(stepLength());
     } catch (const InputError& refusal) {
+        time.leave();
         takeBack();
         throw RunError(refusal.what());
     } catch (...) {
+        time.leave();
         takeBack();
         throw;
     }
@@ -56,6 +59,7 @@ void Scene::Inside::choosePartsLength() {
 }
 
 void Scene::Inside::advance(double length, bool another) {
+    const WithinStep time(scene);
     moveAndFindForces(length);
     finishStep(another);
 }
@@ -65,6 +69,7 @@ void Scene::Inside::moveAndFindForces(double length) {
     moveAll(step);
     findForces(step);
     parts.call(&StepPart::afterForces, step);
+    parts.call(&StepPart::accelerate, step);
 }
 
 void Scene::Inside::finishStep(bool another) {
@@ -92,6 +97,7 @@ void Scene::Inside::moveAll(StepContext& step) {
     refuseRunaway(step.shifts.grains);
     parts.call(&StepPart::moveSurroundings, step);
     refuseRunaway(step.shifts.grains);  // with what a flow carries them
+    scene.goToEndOfStep(step.timeAfter);
     step.shifts.walls = scene.wallHandler.moveTo(step.time + step.length);
     periodicWalls.follow(scene.wallHandler, step.shifts.walls, step.time + step.length);
     step.times.enter(StepTimes::Part::Search);

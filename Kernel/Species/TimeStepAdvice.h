@@ -75,8 +75,8 @@ private:
             const auto turning = [&](const Vector<double>& velocity) {
                 return ask([&](double time) {
                     typename Friction::template History<double> springs{};
-                    return Friction::rotationForce(friction, sticking, along, Slip<double>{velocity, time, 0},
-                                                   springs);
+                    return Friction::rotationForce(friction, contact, sticking, along,
+                                                   Slip<double>{velocity, time, 0}, springs);
                 });
             };
             found.rolling = turning(across);

@@ -33,6 +33,12 @@ public:
     void call(Phase phase, StepContext& context) const {
         for (StepPart* const part : awake) (part->*phase)(context);
     }
+    /// @param but a part that does so itself
+    void addAccelerations(StepContext& context, std::span<const std::uint32_t> places,
+                          const StepPart* but = nullptr) const {
+        for (StepPart* const part : awake)
+            if (part != but) part->addAccelerations(context, places);
+    }
     /// Takes back the parts in the opposite order.
     void takeBack(StepContext& context) const;
     [[nodiscard]] bool needFinishedStep() const { return finishEachStep; }

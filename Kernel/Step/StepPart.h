@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string_view>
 
@@ -52,6 +53,10 @@ public:
     /// Hooks have changed something; before check().
     virtual void takeOver(StepContext&, const SceneChanges&) {}
 
+    /// Hooks have changed these grains, whose accelerations were found anew of contacts and gravity: the part
+    /// adds those of the forces that it gave in the last step.
+    virtual void addAccelerations(StepContext&, std::span<const std::uint32_t> /*places*/) {}
+
     /// Called before a step, with a whole state: it may still choose the length of the step, or change
     /// velocities (the energy ledger books that as given by the driver). It is not taken back.
     virtual void prepare(StepContext&) {}
@@ -61,12 +66,16 @@ public:
     virtual void moveSurroundings(StepContext&) {}
     /// All have moved, and `shifts` are known.
     virtual void afterMotion(StepContext&) {}
+    /// The contacts have their forces: a part finds its own, by the velocities that contacts have seen, which
+    /// it leaves as they are for the parts behind it.
     virtual void afterForces(StepContext&) {}
+    /// All parts have found their forces: velocities get the share of them that the end of the step gives.
+    virtual void accelerate(StepContext&) {}
     /// Grains have the velocities of the end of the step, which is not taken back any more.
     virtual void finish(StepContext&) {}
     /// Grains may come and go.
     virtual void atEnd(StepContext&) {}
-    /// The step has failed in one of the phases from beforeMotion() to afterForces(): the part is as it was
+    /// The step has failed in one of the phases from beforeMotion() to accelerate(): the part is as it was
     /// before it.
     virtual void takeBack(StepContext&) {}
 

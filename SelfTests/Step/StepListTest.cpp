@@ -43,6 +43,7 @@ struct Diary : StepPart {
     void moveSurroundings(StepContext& step) override { note(step, "moveSurroundings"); }
     void afterMotion(StepContext& step) override { note(step, "afterMotion"); }
     void afterForces(StepContext& step) override { note(step, "afterForces"); }
+    void accelerate(StepContext& step) override { note(step, "accelerate"); }
     void finish(StepContext& step) override { note(step, "finish"); }
     void atEnd(StepContext& step) override { note(step, "atEnd"); }
     void takeBack(StepContext& step) override { note(step, "takeBack"); }
@@ -67,7 +68,8 @@ struct Scene3 : scenes::FewGrains<S> {
 };
 
 const std::vector<std::string> phases{"prepare",     "beforeMotion", "moveGrains", "moveSurroundings",
-                                      "afterMotion", "afterForces",  "finish",     "atEnd"};
+                                      "afterMotion", "afterForces",  "accelerate", "finish",
+                                      "atEnd"};
 
 TEST(StepList, callsItsPartsPhaseByPhase) {
     std::vector<std::string> book, expected;
@@ -96,7 +98,7 @@ TEST(StepList, callsNoPartThatSleeps) {
 }
 
 TEST(StepList, takesAFailedStepBackInTheOppositeOrder) {
-    for (std::size_t k = 1; k < 6; ++k) {  // from beforeMotion to afterForces
+    for (std::size_t k = 1; k < 7; ++k) {  // from beforeMotion to accelerate
         std::vector<std::string> book;
         Scene3 scene, whole;
         scene.keepEnergyLedger(), whole.keepEnergyLedger();

@@ -34,7 +34,9 @@ def heap(friction, rolling, seed=1, time=0.25):
     sand = scene.add_species("HertzianViscoelasticMindlinRollingTorsion", density=2500, young_modulus=2e6,
                              poisson_ratio=0.25, restitution_coefficient=0.3, sliding_friction_coefficient=friction,
                              rolling_stiffness=1e3, rolling_dissipation=1e-4, rolling_friction_coefficient=rolling,
-                             torsion_stiffness=1e3, torsion_dissipation=1e-4, torsion_friction_coefficient=rolling)
+                             # The lever of torsion is twice that of rolling in this law: these are the same torques.
+                             torsion_stiffness=1e3 / 4, torsion_dissipation=1e-4 / 4,
+                             torsion_friction_coefficient=rolling / 2)
     scene.add_plane(sand, (0, 0, -1), (0, 0, 0))
     base = np.stack(np.meshgrid(np.arange(-9, 10), np.arange(-9, 10), [0]), -1).reshape(-1, 3) * SPACING
     scene.add_grains(sand, base, BASE, fixed=True)

@@ -77,6 +77,11 @@ struct MindlinSpring : SlidingSpring<Law> {
     template <class T>
     using History = TangentialSpring<T>;
 
+    /// N/m: Mindlin's 8 G* a, whatever the factor of the spring
+    template <class T>
+    [[gnu::always_inline]] static T fullStiffness(const PreparedSpring& p, const Contact<T>& contact) {
+        return p.stiffnessFactor * contact.contactRadius;
+    }
     /// N/m
     template <class T>
     [[gnu::always_inline]] static T springStiffness(const PreparedSpring& p, const Contact<T>& contact) {
