@@ -24,7 +24,7 @@ class ContactStore;
 class GrainShapes;
 struct Bucket;
 struct PeriodicBox;
-class HeldBits;
+struct HeldInContacts;
 struct TranslationRecord;
 struct RotationRecord;
 
@@ -45,7 +45,7 @@ struct ContactTask {
     const TranslationRecord* translation;
     const RotationRecord* rotation;
     const Vector<double>* acceleration;  // m/s^2, of the last step
-    const HeldBits* held;                // null where no grain is held along some axes
+    const HeldInContacts* held;          // null where no grain is held
     const PeriodicBox& box;
     std::size_t bucket;       // its number
     std::size_t begin, end;   // blocks

@@ -65,6 +65,7 @@ std::span<const Conflict> HeatPart::ownConflicts() const {
 }
 
 void HeatPart::check(const StepContext& scene) {
+    scene.contacts.askForHeldContacts();
     const auto species = static_cast<int>(scene.laws->speciesCount());
     for (int k = 0; k < species; ++k)
         if (!materials.contains(k))

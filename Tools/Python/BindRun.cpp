@@ -18,6 +18,13 @@ const Integrator& integratorNamed(const std::string& name) {
     unknownName("integrator", name, {names.begin(), names.end()});
 }
 
+HeldContacts heldContacts(const std::string& which) {
+    if (which == "where_asked") return HeldContacts::WhereAsked;
+    if (which == "all") return HeldContacts::All;
+    if (which == "none") return HeldContacts::None;
+    unknownName("setting of held contacts", which, {"where_asked", "all", "none"});
+}
+
 /// The smaller of the stability limit and a share of the shortest contact.
 double chooseTimeStep(PythonScene& scene, double stepsInContact) {
     checkValue("choose_time_step", "steps_in_contact", stepsInContact, "", positive);
@@ -82,6 +89,11 @@ void bindTime(SceneClass& scene) {
         .def(
             "accept_overlaps", [](PythonScene& s, double share) { s.scene().acceptOverlaps(share); },
             py::arg("share"), comment("Scene::acceptOverlaps"))
+        .def(
+            "set_held_contacts",
+            [](PythonScene& s, const std::string& which) { s.scene().setHeldContacts(heldContacts(which)); },
+            py::arg("which"),
+            comment("Scene::setHeldContacts", "which: \"where_asked\", \"all\" or \"none\"."))
         .def(
             "set_adaptive_time_step",
             [](PythonScene& s, double share, std::optional<double> largest) {
