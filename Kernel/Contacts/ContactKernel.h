@@ -352,6 +352,11 @@ private:
                         .timeBefore = timeStep * select(begins, normal.timing.before, Pack(before)),
                         .timeAfter = Pack(timeStep * (1 - before)),
                         .response = response};
+        if (timing.springsAhead > 0) [[unlikely]] {
+            const Pack ahead = timing.springsAhead;
+            slip.timeBefore = select(maskFromBits(store.states[number].touching), -ahead, Pack(0));
+            slip.timeAfter = ahead;
+        }
         auto history = memory.history.load<History>(block);
         Vector<Pack> normalShift;
         if constexpr (ShapedGeometry<Geometry>) normalShift = geometry.normalShift();

@@ -27,6 +27,7 @@ struct Bucket;
 struct PeriodicBox;
 struct SetValues;
 class HeldBits;
+struct HeldInContacts;
 struct TranslationRecord;
 struct RotationRecord;
 
@@ -47,7 +48,7 @@ struct ContactTask {
     const TranslationRecord* translation;
     const RotationRecord* rotation;
     const Vector<double>* acceleration;  // m/s^2, of the last step
-    const HeldBits* held;                // null where no grain is held along some axes
+    const HeldInContacts* held;          // null where no grain is held
     const PeriodicBox& box;
     std::size_t bucket;       // its number
     std::size_t begin, end;   // blocks

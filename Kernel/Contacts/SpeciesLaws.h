@@ -197,7 +197,7 @@ public:
         const TranslationRecord* const translation = task.translation;
         const RotationRecord* const rotation = task.rotation;
         const ContactBlock* const blocks = task.store.blocks.data();
-        const HeldBits* const held = task.held;
+        const HeldInContacts* const held = task.held;
         if (task.store.buckets[task.bucket].wall >= 0) {
             const WallPointColumns* const points = task.store.wallPoints.data();
             const std::size_t first = task.store.firstWallBlock();

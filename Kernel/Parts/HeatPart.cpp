@@ -90,6 +90,7 @@ std::optional<std::string> HeatPart::objectionToSoftening(const ContactLaws& ofS
 void HeatPart::check(const StepContext& scene) {
     laws = scene.laws;
     if (const auto objection = objectionToSoftening(*laws)) throw InputError(*objection);
+    scene.contacts.askForHeldContacts();
     const auto species = static_cast<int>(scene.laws->speciesCount());
     for (int k = 0; k < species; ++k)
         if (!materials.contains(k))

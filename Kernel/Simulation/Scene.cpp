@@ -151,6 +151,12 @@ void Scene::acceptOverlaps(double share) {
     inside->acceptedOverlap = share;
 }
 
+void Scene::setHeldContacts(HeldContacts which) {
+    if (which != getHeldContacts()) inside->heldContactsChanged |= hasBegun();
+    inside->contacts.setHeldContacts(which);
+}
+HeldContacts Scene::getHeldContacts() const { return inside->contacts.getHeldContacts(); }
+
 void Scene::keepEnergyLedger(bool keep) {
     if (keep != keepsEnergyLedger()) requireSetUp("energy ledger");
     inside->account.keep(keep);
@@ -229,12 +235,19 @@ LiquidLedger Scene::Inside::liquidLedger() const {
     return found;
 }
 
+void Scene::warnOfUnlistedContacts() const {
+    const std::string sentence =
+        inside->unlisted.lookFor(contacts(), particleHandler.store(), wallHandler, getNumberOfTimeSteps());
+    if (!sentence.empty()) inside->context.logger(LogLevel::Warn, "{}.", sentence);
+}
+
 std::vector<ObservedContact> Scene::interactions() const {
     ParticleHandler::Inside::requireAll(particleHandler, "interactions()");
     return ownInteractions();
 }
 
 std::vector<ObservedContact> Scene::ownInteractions() const {
+    warnOfUnlistedContacts();
     std::vector<ObservedContact> all;
     const ParticleStore& grains = particleHandler.store();
     contacts().forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
@@ -246,6 +259,7 @@ std::vector<ObservedContact> Scene::ownInteractions() const {
 std::vector<ObservedContact> Scene::interactionsOf(std::size_t identity) const {
     std::vector<ObservedContact> all;
     const std::uint32_t place = particleHandler.placeOf(identity);
+    if (particleHandler.store().translation[place].inverseMass == 0) warnOfUnlistedContacts();
     contacts().forEachActingOf(place, [&](const Bucket& bucket, std::uint32_t contact) {
         all.push_back(contacts().observe(particleHandler.store(), bucket, contact));
     });

@@ -16,6 +16,7 @@
 #include "Kernel/Contacts/ContactEvent.h"
 #include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Contacts/Evaporation.h"
+#include "Kernel/Contacts/HeldContacts.h"
 #include "Kernel/Contacts/LiquidLedger.h"
 #include "Kernel/Contacts/ObservedContact.h"
 #include "Kernel/Energy/EnergyLedger.h"
@@ -173,6 +174,15 @@ public:
     /// settled in another run. The stability limit stays that of 0.05: beyond it contacts are stiffer
     /// (stabilityAdvice()).
     void acceptOverlaps(double share);
+    /// Contacts between two grains that are both held along all axes (fixParticle(), prescribed motion), and
+    /// of such a grain with a wall. WhereAsked, the default, lists them where something needs them: all of
+    /// them for heat, those at walls that forces move, whose forces are kept, or that wear. All is for forces
+    /// between held grains (contactForceOn(), interactions(), fields); None leaves them out everywhere. They
+    /// do not change the motion of grains. Dashpots that are made for a restitution have the mass m1 m2 / (m1
+    /// + m2) that both would have if they were free, or m of the grain at a wall. Also in a run, from the
+    /// next step on.
+    void setHeldContacts(HeldContacts which);
+    [[nodiscard]] HeldContacts getHeldContacts() const;
     /// Keeps account of the energy; costs time, and is off by default.
     void keepEnergyLedger(bool keep = true);
     /// Something of the driver's own that acts in each step, behind all parts of the kernel (StepPart.h says
@@ -313,6 +323,8 @@ private:
     void addOwnPart(std::unique_ptr<StepPart> part);
     /// Of all ranks.
     [[nodiscard]] GrainSums sumAllGrains() const;
+    /// Warns where contacts are asked for and bodies that are held have none.
+    void warnOfUnlistedContacts() const;
     /// A function that refuses a change which does not go together with moving images; empty at set-up.
     std::function<void()> refusalInRun();
 

@@ -27,6 +27,7 @@
 #include "Kernel/Ranks/GrainSharing.h"
 #include "Kernel/Simulation/PeriodicWalls.h"
 #include "Kernel/Simulation/Scene.h"
+#include "Kernel/Simulation/UnlistedContacts.h"
 #include "Kernel/Step/StepList.h"
 
 namespace pendular {
@@ -133,6 +134,8 @@ public:
     double approachUnseen = 0;                     // m, of two grains since deep overlaps were looked for
     bool speciesChanged = false;                   // since the run began
     bool gravityChanged = false;                   // since the run began
+    bool heldContactsChanged = false;              // setHeldContacts(), since the run began
+    UnlistedContacts unlisted;
     bool lawsAreNew = false;                       // prepared ones are to be made again
     bool noRoomWasTold = false;                    // of insert() in the run
     std::vector<ContactEvent> eventsOfAll;         // of the last step, where ranks have their own grains only
@@ -178,6 +181,9 @@ private:
     /// Whether the checks must be made again for grains that were added.
     [[nodiscard]] bool isNewToChecks(std::span<const std::uint32_t> added) const;
     void renewAccelerations(const GrainChanges& changes);
+    /// Contacts that are changed have the forces of what they are now, and their energy is the driver's.
+    /// @param heldAreNew contacts of held bodies are listed that were not
+    void computeChanged(const GrainChanges& changes, int firstNewWall, bool heldAreNew);
     void refuseOverlapsOf(const GrainChanges& changes, int firstNewWall) const;
     void refuseOtherMemory() const;
 

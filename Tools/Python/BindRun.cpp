@@ -19,6 +19,13 @@ const Integrator& integratorNamed(const std::string& name) {
     unknownName("integrator", name, {names.begin(), names.end()});
 }
 
+HeldContacts heldContacts(const std::string& which) {
+    if (which == "where_asked") return HeldContacts::WhereAsked;
+    if (which == "all") return HeldContacts::All;
+    if (which == "none") return HeldContacts::None;
+    unknownName("setting of held contacts", which, {"where_asked", "all", "none"});
+}
+
 double chooseTimeStep(PythonScene& scene, double stepsInContact) {
     scene.scene().setTimeStep(chosenTimeStep(scene.scene(), stepsInContact));
     return scene.scene().getTimeStep();
@@ -75,6 +82,11 @@ void bindTime(SceneClass& scene) {
         .def(
             "accept_overlaps", [](PythonScene& s, double share) { s.scene().acceptOverlaps(share); },
             py::arg("share"), comment("Scene::acceptOverlaps"))
+        .def(
+            "set_held_contacts",
+            [](PythonScene& s, const std::string& which) { s.scene().setHeldContacts(heldContacts(which)); },
+            py::arg("which"),
+            comment("Scene::setHeldContacts", "which: \"where_asked\", \"all\" or \"none\"."))
         .def(
             "set_adaptive_time_step",
             [](PythonScene& s, double share, std::optional<double> largest) {
