@@ -29,6 +29,10 @@ struct Draught : StepPart {
             work += 0.5 * grain.getMass() * (grain.getVelocity().squaredNorm() - before.squaredNorm());
         }
     }
+    void compareSetUp(StateArchive& archive, StepContext& /*scene*/) override {
+        archive.same("density", density, "kg/m^3"), archive.same("viscosity", viscosity, "Pa s");
+        archive.sameRecord<double>("velocity", toVector(air), "m/s");
+    }
     void visitState(StateArchive& archive, StepContext& /*scene*/) override { archive.finite("work", work); }
     void addTo(SummaryRows& rows) const override { rows.addNumber("work of the draught", work, "J"); }
 

@@ -55,6 +55,7 @@ public:
     [[nodiscard]] std::span<const Conflict> ownConflicts() const override;
     void check(const StepContext& scene) override;
     void prepare(StepContext& step) override;
+    void compareSetUp(StateArchive& archive, StepContext& scene) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
     void addTo(SummaryRows& rows) const override;
 

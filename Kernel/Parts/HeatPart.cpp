@@ -261,14 +261,35 @@ void HeatPart::atEnd(StepContext& step) {
     heat.stored = storedIn(step);
 }
 
-/// Settings are those with which the run began, or, where it has changed them, those of the file.
-void HeatPart::visitSettings(StateArchive& archive) {
+/// Those with which the run began.
+void HeatPart::compareSettings(StateArchive& archive) const {
+    archive.same("materials", static_cast<std::uint64_t>(materials.size()));
+    for (const auto& [species, m] : materials)
+        archive.group(fmt::format("species{}", species), [&, &m = m] {
+            archive.same("conductivity", m.conductivity, "W/(m K)");
+            archive.same("heatCapacity", m.heatCapacity, "J/(kg K)");
+        });
+    archive.same("heldWalls", static_cast<std::uint64_t>(heldWalls.size()));
+    for (const auto& [wall, held] : heldWalls)
+        archive.group(fmt::format("wall{}", wall), [&, &held = held] {
+            archive.same("temperature", held.temperature, "K");
+            archive.same("conductivity", held.conductivity, "W/(m K)");
+        });
+    archive.same("conduction", static_cast<int>(conduction));
+    archive.same("radiusFactor", radiusFactor);
+    archive.same("heatByContacts", contactsHeat ? 1 : 0);
+}
+
+/// Where the run has changed them, they are those of the file.
+void HeatPart::compareSetUp(StateArchive& archive, StepContext& /*scene*/) {
     struct MaterialRow {
         double species, conductivity, heatCapacity;
     };
     struct WallRow {
         double wall, temperature, conductivity;
     };
+    archive.value("settingsChanged", changedInRun);
+    if (!changedInRun) return compareSettings(archive);
     std::vector<MaterialRow> ofSpecies;
     std::vector<WallRow> ofWalls;
     std::array<double, 3> laws{static_cast<double>(conduction), radiusFactor, contactsHeat ? 1.0 : 0.0};
@@ -276,15 +297,8 @@ void HeatPart::visitSettings(StateArchive& archive) {
         ofSpecies.push_back({static_cast<double>(species), m.conductivity, m.heatCapacity});
     for (const auto& [wall, held] : heldWalls)
         ofWalls.push_back({static_cast<double>(wall), held.temperature, held.conductivity});
-    archive.value("settingsChanged", changedInRun);
-    if (!changedInRun) {
-        archive.same<double>("materials", std::span<const MaterialRow>(ofSpecies));
-        archive.same<double>("heldWalls", std::span<const WallRow>(ofWalls));
-        archive.sameRecord<double>("laws", laws);
-        return;
-    }
-    archive.column<double>("materials", ofSpecies);
-    archive.column<double>("heldWalls", ofWalls);
+    archive.column<double>("materialsNow", ofSpecies);
+    archive.column<double>("heldWallsNow", ofWalls);
     archive.record<double>("laws", laws);
     if (!archive.isReading()) return;
     materials.clear(), heldWalls.clear();
@@ -297,10 +311,7 @@ void HeatPart::visitSettings(StateArchive& archive) {
     radiusFactor = laws[1], contactsHeat = laws[2] != 0;
 }
 
-void HeatPart::visitState(StateArchive& archive, StepContext& /*scene*/) {
-    archive.finite("ledger", heat);
-    visitSettings(archive);
-}
+void HeatPart::visitState(StateArchive& archive, StepContext& /*scene*/) { archive.finite("ledger", heat); }
 
 void HeatPart::addTo(SummaryRows& rows) const {
     rows.addNumber("heat: stored in grains", heat.stored, "J");

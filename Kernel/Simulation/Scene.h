@@ -297,6 +297,8 @@ private:
     void onFirstRank(const std::function<void()>& write) override;
     [[nodiscard]] bool areGrainsOnRanks() const override;
     [[nodiscard]] double agreeOnLargest(double own) override;
+    [[nodiscard]] double agreeOnDecisions(double own) override;
+    void agreeOnSettings() override;
     void visitAll(StateArchive& archive) override;
     void writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contacts,
                         const std::string& remark) override;
