@@ -101,7 +101,8 @@ void BodyKind::compareSetUp(StateArchive& archive) const {
     archive.same("species", species());
     archive.sameRecord<double>("velocity", velocity(), "m/s");
     archive.sameRecord<double>(
-        "spin", std::visit([](const auto& one) { return toVector(one.getAngularVelocity()); }, like), "rad/s");
+        "spin", std::visit([](const auto& one) { return toVector(one.getAngularVelocity()); }, like),
+        "rad/s");
     archive.same("film", film(), "m^3");
     const Eigen::Quaterniond turn = orientation();
     archive.sameRecord<double>("orientation", std::array{turn.w(), turn.x(), turn.y(), turn.z()});

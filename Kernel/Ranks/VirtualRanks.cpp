@@ -23,9 +23,7 @@ public:
         meet();
         return std::exchange(mail[own], std::vector<Message>(all.ranks));
     }
-    [[nodiscard]] double largest(double value) override {
-        return largestOf(Call::Largest, {value, 0, 0})[0];
-    }
+    [[nodiscard]] double largest(double value) override { return largestOf(Call::Largest, {value, 0, 0})[0]; }
     void beginLargest(Reduction what, const Three& three) override { begun = {what, three}; }
     [[nodiscard]] Three endLargest() override {
         constexpr std::array calls{Call::Largest, Call::LargestOfStep, Call::LargestOfDecisions,

@@ -8,8 +8,8 @@
 #include "Kernel/Ranks/GrainSharing.h"
 #include "Kernel/State/StateArchive.h"
 
-// What all ranks of a run must have alike: each makes a hash of it, and the hashes are compared. Only where they
-// differ all is said by name.
+// What all ranks of a run must have alike: each makes a hash of it, and the hashes are compared. Only where
+// they differ all is said by name.
 
 namespace pendular {
 

@@ -63,11 +63,12 @@ void Scene::Inside::visitSetUp(StateArchive& archive) {
 
 void Scene::Inside::refuseDifference(const std::string& difference) const {
     const bool isSetUp = scene.getNumberOfTimeSteps() == scene.getFirstStep();
-    const std::string where =
-        isSetUp ? "At set-up"
-                : fmt::format("At time {:.6g} s, after {} steps,", scene.getTime(), scene.getNumberOfTimeSteps());
+    const std::string where = isSetUp ? "At set-up"
+                                      : fmt::format("At time {:.6g} s, after {} steps,", scene.getTime(),
+                                                    scene.getNumberOfTimeSteps());
     const std::string sentence = fmt::format(
-        "{} the ranks do not agree: {}; set up the same scene on all ranks, and let the hooks of all make the "
+        "{} the ranks do not agree: {}; set up the same scene on all ranks, and let the hooks of all make "
+        "the "
         "same changes and decisions.",
         where, difference.empty() ? "the difference has no name" : difference);
     if (isSetUp) throw InputError(sentence);

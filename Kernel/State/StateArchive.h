@@ -157,8 +157,8 @@ public:
         std::span<const Number> inFile(kept), inScene(numbers);
         std::string what(name);
         if (kept.size() == numbers.size() && kept.size() > mostShown) {
-            const auto at = static_cast<std::size_t>(
-                std::ranges::mismatch(kept, numbers, isEqual).in1 - kept.begin());
+            const auto at =
+                static_cast<std::size_t>(std::ranges::mismatch(kept, numbers, isEqual).in1 - kept.begin());
             inFile = inFile.subspan(at, 1), inScene = inScene.subspan(at, 1);
             what += numberOfList(at);
         }

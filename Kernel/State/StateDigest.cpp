@@ -65,8 +65,7 @@ void StateDigest::add(std::string_view group, std::string_view name, std::string
     WordHash own;
     own.add(numbers, bytes);
     all.add(own.value());
-    kept.push_back(
-        {std::string(group) + std::string(name), shownNumbers(shape, numbers, unit), own.value()});
+    kept.push_back({std::string(group) + std::string(name), shownNumbers(shape, numbers, unit), own.value()});
 }
 
 void StateDigest::add(std::string_view group, std::string_view name, std::string_view text) {

@@ -40,8 +40,8 @@ private:
     std::uint64_t state = 0x9e3779b97f4a7c15u;
 };
 
-/// What a StateArchive visits as a hash, instead of a file: the ranks of a scene compare it. With names it also
-/// keeps each entry, to say which of them differ.
+/// What a StateArchive visits as a hash, instead of a file: the ranks of a scene compare it. With names it
+/// also keeps each entry, to say which of them differ.
 class StateDigest {
 public:
     enum class Keep { HashOnly, Names };

@@ -1,5 +1,5 @@
-// Ranks that have set up another scene, or whose hooks do something else, end with one sentence on all of them that
-// names the difference; none of them waits for ever.
+// Ranks that have set up another scene, or whose hooks do something else, end with one sentence on all of
+// them that names the difference; none of them waits for ever.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -38,10 +38,11 @@ struct Box : scenes::SettlingBox<Dry> {
 
 using Change = std::function<void(Box&)>;
 
-/// Runs on three ranks, on one of which a change is made at set-up, or after 20 steps. Returns what each of them
-/// says; all say the same.
-std::string sentenceOf(const Change& atSetUp, const Change& inHook = {},
-                       const std::function<void(Box&, bool)>& run = [](Box& box, bool) { box.runSteps(400); }) {
+/// Runs on three ranks, on one of which a change is made at set-up, or after 20 steps. Returns what each of
+/// them says; all say the same.
+std::string sentenceOf(
+    const Change& atSetUp, const Change& inHook = {},
+    const std::function<void(Box&, bool)>& run = [](Box& box, bool) { box.runSteps(400); }) {
     constexpr std::size_t ranks = 3, other = 1;
     std::vector<std::string> told(ranks);
     std::string outside;
@@ -75,7 +76,8 @@ TEST(Disagreement, isNotFoundWhereRanksAreAlike) {
     EXPECT_EQ(sentenceOf({}, {},
                          [](Box& box, bool) {
                              box.hook = [](Box& in) {
-                                 if (in.getNumberOfTimeSteps() == 20) in.setGravity({0, 0, -5}), in.requestPause();
+                                 if (in.getNumberOfTimeSteps() == 20)
+                                     in.setGravity({0, 0, -5}), in.requestPause();
                                  if (in.getNumberOfTimeSteps() == 40) in.setTimeStep(0.5 * in.getTimeStep());
                              };
                              box.runSteps(100);
@@ -92,14 +94,20 @@ TEST(Disagreement, ofTheSetUpIsNamed) {
     const std::string_view where = "At set-up the ranks do not agree: ", ranks = " on rank 0 and ";
     expectTold(sentenceOf([](Box& box) { box.setTimeStep(0.5 * box.getTimeStep()); }),
                {where, "timeStep is ", ranks, " s on rank 1"});
-    expectTold(sentenceOf([](Box& box) { box.setGravity({0, 0, -5}); }), {where, "gravity/z is ", ranks, "-5 m/s^2"});
-    expectTold(sentenceOf([](Box& box) { box.particleHandler.removeObject(3); }), {where, "the number of particles is"});
+    expectTold(sentenceOf([](Box& box) {
+                   box.setGravity({0, 0, -5});
+               }),
+               {where, "gravity/z is ", ranks, "-5 m/s^2"});
+    expectTold(sentenceOf([](Box& box) { box.particleHandler.removeObject(3); }),
+               {where, "the number of particles is"});
     expectTold(sentenceOf([](Box& box) {
                    GrainReference grain = box.particleHandler.getObject(7);
                    grain.setRadius(0.999 * grain.getRadius());
                }),
                {where, "particle 7: radius is ", ranks, " m on rank 1"});
-    expectTold(sentenceOf([](Box& box) { box.particleHandler.getObject(7).setVelocity({0, 0, 0.123}); }),
+    expectTold(sentenceOf([](Box& box) {
+                   box.particleHandler.getObject(7).setVelocity({0, 0, 0.123});
+               }),
                {where, "particle 7: velocity is ", "(0, 0, 0.123) m/s on rank 1"});
     expectTold(sentenceOf([](Box& box) { box.speciesHandler.getObject(0)->setStiffness(123); }),
                {where, "stiffness is ", "123 N/m on rank 1"});
@@ -112,27 +120,34 @@ TEST(Disagreement, ofTheSetUpIsNamed) {
     expectTold(sentenceOf([](Box& box) { box.heated->holdWall(0, 500); }),
                {where, "parts/heat/wall0/temperature is 400 K on rank 0 and 500 K on rank 1"});
     expectTold(sentenceOf([](Box& box) { box.setSaveCount(7); }), {where, "setSaveCount()"});
-    expectTold(sentenceOf([](Box& box) { box.setIntegrator(integrators::velocityVerlet); }), {where, "integrator"});
+    expectTold(sentenceOf([](Box& box) { box.setIntegrator(integrators::velocityVerlet); }),
+               {where, "integrator"});
 }
 
 TEST(Disagreement, ofHooksIsNamed) {
     const std::string_view where = "the ranks do not agree: ", after = "after 20 steps";
-    expectTold(sentenceOf({}, [](Box& box) { box.setGravity({0, 0, -5}); }),
+    expectTold(sentenceOf({},
+                          [](Box& box) {
+                              box.setGravity({0, 0, -5});
+                          }),
                {where, after, "gravity is (0, 0, -9.81) m/s^2 on rank 0 and (0, 0, -5) m/s^2 on rank 1"});
     expectTold(sentenceOf({}, [](Box& box) { box.requestPause(); }),
                {where, "requestPause() is not called on rank 0 and called on rank 1"});
     expectTold(sentenceOf({}, [](Box& box) { box.heated->holdWall(0, 500); }),
                {where, "parts/heat/settingsChanged is 0 on rank 0 and 1 on rank 1"});
-    expectTold(sentenceOf({}, [](Box& box) {
-                   if (InfiniteWall* const floor = dynamic_cast<InfiniteWall*>(&box.wallHandler.getObject(0)))
-                       floor->setVelocity({0, 0, 1e-3});
-               }),
-               {where, "walls/0/"});
-    expectTold(sentenceOf({}, [](Box& box) { box.setTimeMax(1e-9); },
-                          [](Box& box, bool) {
-                              box.setTimeMax(400 * box.getTimeStep());
-                              box.solve();
+    expectTold(sentenceOf({},
+                          [](Box& box) {
+                              if (InfiniteWall* const floor =
+                                      dynamic_cast<InfiniteWall*>(&box.wallHandler.getObject(0)))
+                                  floor->setVelocity({0, 0, 1e-3});
                           }),
+               {where, "walls/0/"});
+    expectTold(sentenceOf(
+                   {}, [](Box& box) { box.setTimeMax(1e-9); },
+                   [](Box& box, bool) {
+                       box.setTimeMax(400 * box.getTimeStep());
+                       box.solve();
+                   }),
                {where, "the last step of this part of the run is 400 on rank 0 and "});
 }
 
@@ -153,14 +168,16 @@ TEST(Disagreement, ofTheTimeStepInAHookIsRefused) {
 }
 
 TEST(Disagreement, ofPartsOfTheRunIsNamed) {
-    expectTold(sentenceOf({}, {}, [](Box& box, bool isOther) { box.runSteps(isOther ? 101 : 100); }),
-               {"the ranks do not agree: the last step of this part of the run is 100 on rank 0 and 101 on rank 1"});
+    expectTold(
+        sentenceOf({}, {}, [](Box& box, bool isOther) { box.runSteps(isOther ? 101 : 100); }),
+        {"the ranks do not agree: the last step of this part of the run is 100 on rank 0 and 101 on rank 1"});
     expectTold(sentenceOf({}, {},
                           [](Box& box, bool isOther) {
                               box.initialise();
                               box.step(isOther ? 31 : 30);
                           }),
-               {"the ranks do not agree: the number of steps that step() is to do is 30 on rank 0 and 31 on rank 1"});
+               {"the ranks do not agree: the number of steps that step() is to do is 30 on rank 0 and 31 on "
+                "rank 1"});
     const auto between = [](auto&& change) {
         return [change](Box& box, bool isOther) {
             box.runSteps(30);
@@ -170,8 +187,9 @@ TEST(Disagreement, ofPartsOfTheRunIsNamed) {
     };
     expectTold(sentenceOf({}, {}, between([](Box& box) { box.particleHandler.removeObject(3); })),
                {"the ranks do not agree: the number of particles is"});
-    expectTold(sentenceOf({}, {}, between([](Box& box) { box.particleHandler.getObject(5).setRadius(0.9e-3); })),
-               {"the ranks do not agree: particle 5: radius is "});
+    expectTold(
+        sentenceOf({}, {}, between([](Box& box) { box.particleHandler.getObject(5).setRadius(0.9e-3); })),
+        {"the ranks do not agree: particle 5: radius is "});
     expectTold(sentenceOf({}, {}, between([](Box& box) { box.wallHandler.removeObject(0); })),
                {"the ranks do not agree: walls/0"});
     expectTold(sentenceOf({}, {}, between([](Box& box) { box.setTimeStep(0.9 * box.getTimeStep()); })),

@@ -20,8 +20,9 @@ struct Change {
     std::function<void(Settings&)> make;
 };
 
-/// A scene of these settings writes a restart file after some steps. One of the same settings takes it; for each
-/// change the refusal is one sentence with the name of the setting, its value in the file and that in the scene.
+/// A scene of these settings writes a restart file after some steps. One of the same settings takes it; for
+/// each change the refusal is one sentence with the name of the setting, its value in the file and that in
+/// the scene.
 /// @param make(settings) returns a pointer to a scene
 template <class Settings, class Make>
 void expectRefusals(const Make& make, const std::vector<Change<Settings>>& changes, std::size_t steps = 5) {
@@ -48,8 +49,9 @@ void expectRefusals(const Make& make, const std::vector<Change<Settings>>& chang
         change.make(other);
         const std::string sentence = resume(other);
         EXPECT_TRUE(support::isOneSentence(sentence)) << sentence;
-        for (const std::string_view part : {std::string_view(change.name), std::string_view(" in the file and "),
-                                            std::string_view(" in the scene")})
+        for (const std::string_view part :
+             {std::string_view(change.name), std::string_view(" in the file and "),
+              std::string_view(" in the scene")})
             EXPECT_TRUE(support::contains(sentence, part)) << sentence;
     }
 }

@@ -1,5 +1,6 @@
-// A run is resumed with the settings of its parts that it began with, or is refused: for each part of a step each
-// public setting is changed. SetUpOfWallsTest.cpp has walls, of which drives and membranes are parts, too.
+// A run is resumed with the settings of its parts that it began with, or is refused: for each part of a step
+// each public setting is changed. SetUpOfWallsTest.cpp has walls, of which drives and membranes are parts,
+// too.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -55,31 +56,31 @@ struct FluidSettings {
 TEST(SetUpOfParts, fluid) {
     const auto make = [](const FluidSettings& s) {
         auto scene = std::make_unique<FewGrains>();
-        scene->addPart<FluidPart>(s.grid, s.fluid, dragLaw(s.law), std::make_unique<ColumnFlow>(s.fluid, s.speed),
-                                  s.model);
+        scene->addPart<FluidPart>(s.grid, s.fluid, dragLaw(s.law),
+                                  std::make_unique<ColumnFlow>(s.fluid, s.speed), s.model);
         return scene;
     };
     using F = FluidSettings;
     expectRefusals<F>(
-        make, {{"parts/fluid/density is 998.2 kg/m^3 in the file and 1.2 kg/m^3 in the scene",
-                [](F& s) { s.fluid.density = 1.2; }},
-               {"parts/fluid/viscosity", [](F& s) { s.fluid.viscosity = 1.1e-3; }},
-               {"parts/fluid/law is Gidaspow in the file and Ergun in the scene", [](F& s) { s.law = "Ergun"; }},
-               {"parts/fluid/model is A in the file and B in the scene",
-                [](F& s) { s.model = PressureModel::B; }},
-               {"parts/fluid/lowest", [](F& s) { s.grid.lowest.x = -0.001; }},
-               {"parts/fluid/highest", [](F& s) { s.grid.highest.z = 0.021; }},
-               {"parts/fluid/cells is (1, 1, 4) in the file and (1, 1, 5) in the scene",
-                [](F& s) { s.grid.cells[2] = 5; }},
-               {"parts/fluid/host/superficialSpeed", [](F& s) { s.speed = [](double) { return 0.01; }; }},
-               {"parts/fluid/host/superficialSpeed",
-                [](F& s) { s.speed = [](double time) { return 0.02 + time; }; }}});
+        make,
+        {{"parts/fluid/density is 998.2 kg/m^3 in the file and 1.2 kg/m^3 in the scene",
+          [](F& s) { s.fluid.density = 1.2; }},
+         {"parts/fluid/viscosity", [](F& s) { s.fluid.viscosity = 1.1e-3; }},
+         {"parts/fluid/law is Gidaspow in the file and Ergun in the scene", [](F& s) { s.law = "Ergun"; }},
+         {"parts/fluid/model is A in the file and B in the scene", [](F& s) { s.model = PressureModel::B; }},
+         {"parts/fluid/lowest", [](F& s) { s.grid.lowest.x = -0.001; }},
+         {"parts/fluid/highest", [](F& s) { s.grid.highest.z = 0.021; }},
+         {"parts/fluid/cells is (1, 1, 4) in the file and (1, 1, 5) in the scene",
+          [](F& s) { s.grid.cells[2] = 5; }},
+         {"parts/fluid/host/superficialSpeed", [](F& s) { s.speed = [](double) { return 0.01; }; }},
+         {"parts/fluid/host/superficialSpeed",
+          [](F& s) { s.speed = [](double time) { return 0.02 + time; }; }}});
 }
 
 struct HeatSettings {
     HeatMaterial material{.conductivity = 1, .heatCapacity = 800};
-    double wall = 400;                        // K
-    std::optional<double> ofWall = 0.5;       // W/(m K)
+    double wall = 400;                   // K
+    std::optional<double> ofWall = 0.5;  // W/(m K)
     bool holdsWall = true, heatsByContacts = false;
     Conduction law = Conduction::Constriction;
     double softening = 1;
@@ -132,14 +133,15 @@ TEST(SetUpOfParts, bonds) {
         return scene;
     };
     using B = BondSettings;
-    expectRefusals<B>(make, {{"parts/bonds/material0/radius", [](B& s) { s.radius = 5e-4; }},
-                             {"parts/bonds/material0/tensileStrength", [](B& s) { s.strength.tensile = 2e8; }},
-                             {"parts/bonds/material0/shearStrength", [](B& s) { s.strength.shear = 2e8; }},
-                             {"parts/bonds/material0/momentShare", [](B& s) { s.strength.momentShare = 0.5; }},
-                             {"parts/bonds/material0/strengthAtEnds", [](B& s) { s.strength.atEnds = false; }},
-                             {"parts/bonds/material0/damping", [](B& s) { s.damping = 0.2; }},
-                             {"parts/bonds/stiffness", [](B& s) { s.modulus = 3e6; }},
-                             {"parts/bonds/materials", [](B& s) { s.hasAnother = true; }}});
+    expectRefusals<B>(make,
+                      {{"parts/bonds/material0/radius", [](B& s) { s.radius = 5e-4; }},
+                       {"parts/bonds/material0/tensileStrength", [](B& s) { s.strength.tensile = 2e8; }},
+                       {"parts/bonds/material0/shearStrength", [](B& s) { s.strength.shear = 2e8; }},
+                       {"parts/bonds/material0/momentShare", [](B& s) { s.strength.momentShare = 0.5; }},
+                       {"parts/bonds/material0/strengthAtEnds", [](B& s) { s.strength.atEnds = false; }},
+                       {"parts/bonds/material0/damping", [](B& s) { s.damping = 0.2; }},
+                       {"parts/bonds/stiffness", [](B& s) { s.modulus = 3e6; }},
+                       {"parts/bonds/materials", [](B& s) { s.hasAnother = true; }}});
 }
 
 struct CopySettings {
@@ -168,7 +170,7 @@ TEST(SetUpOfParts, copiesOfGrains) {
 struct BoundarySettings {
     Vec3D planeNormal{1, 0, 0}, outletNormal{0, 0, 1};
     double planePoint = 0.01, outletPoint = 0.03, age = 0;  // m, m, s
-    std::vector<double> classes{1.5e-3};                   // m
+    std::vector<double> classes{1.5e-3};                    // m
     bool hasCondition = false, hasRegion = false, isTwice = false;
 };
 
@@ -186,15 +188,21 @@ TEST(SetUpOfParts, outletsAndFluxPlanes) {
         return scene;
     };
     using B = BoundarySettings;
-    expectRefusals<B>(make, {{"parts/fluxPlanes/0/normal is (1, 0, 0) in the file and (-1, 0, 0) in the scene",
-                              [](B& s) { s.planeNormal = {-1, 0, 0}; }},
-                             {"parts/fluxPlanes/0/offset", [](B& s) { s.planePoint = 0.011; }},
-                             {"parts/outlets/0/normal", [](B& s) { s.outletNormal = {0, 1, 1}; }},
-                             {"parts/outlets/0/offset", [](B& s) { s.outletPoint = 0.031; }},
-                             {"parts/outlets/0/leastAge", [](B& s) { s.age = 1; }},
-                             {"parts/outlets/0/hasCondition", [](B& s) { s.hasCondition = true; }},
-                             {"parts/outlets/0/classBorders", [](B& s) { s.classes = {1.6e-3}; }},
-                             {"parts/outlets/count", [](B& s) { s.isTwice = true; }}});
+    expectRefusals<B>(make,
+                      {{"parts/fluxPlanes/0/normal is (1, 0, 0) in the file and (-1, 0, 0) in the scene",
+                        [](B& s) {
+                            s.planeNormal = {-1, 0, 0};
+                        }},
+                       {"parts/fluxPlanes/0/offset", [](B& s) { s.planePoint = 0.011; }},
+                       {"parts/outlets/0/normal",
+                        [](B& s) {
+                            s.outletNormal = {0, 1, 1};
+                        }},
+                       {"parts/outlets/0/offset", [](B& s) { s.outletPoint = 0.031; }},
+                       {"parts/outlets/0/leastAge", [](B& s) { s.age = 1; }},
+                       {"parts/outlets/0/hasCondition", [](B& s) { s.hasCondition = true; }},
+                       {"parts/outlets/0/classBorders", [](B& s) { s.classes = {1.6e-3}; }},
+                       {"parts/outlets/count", [](B& s) { s.isTwice = true; }}});
 }
 
 struct InletSettings {
@@ -221,7 +229,8 @@ std::unique_ptr<FewGrains> sceneWithInlet(const InletSettings& s) {
     else inlet.setGrain(grain);
     inlet.setSizes(s.sizes), inlet.setNumberFlow(s.number), inlet.setTimes(s.first, s.last);
     inlet.setRegion(BoxRegion(s.lowest, {0.02, 0.02, 0.04}));
-    inlet.setNoRoom(s.noRoom), inlet.setTries(s.tries), inlet.setSeed(s.seed), inlet.setWholeGrains(s.areWhole);
+    inlet.setNoRoom(s.noRoom), inlet.setTries(s.tries), inlet.setSeed(s.seed),
+        inlet.setWholeGrains(s.areWhole);
     inlet.setRandomTurns(s.areTurned);
     if (s.followsFill) inlet.setFollowsFill({0, 0, 1}, 1e-3, 2e-3);
     scene->inletHandler.copyAndAddObject(inlet);
@@ -279,7 +288,8 @@ TEST(SetUpOfParts, flow) {
             scene->setLeesEdwards(0, 1, s.shear);
             return scene;
         },
-        {{"settings/flow/shearRate is 10 1/s in the file and 11 1/s in the scene", [](F& s) { s.shear = 11; }}});
+        {{"settings/flow/shearRate is 10 1/s in the file and 11 1/s in the scene",
+          [](F& s) { s.shear = 11; }}});
     expectRefusals<F>(
         [](const F& s) {
             auto scene = inPeriods();
@@ -313,8 +323,9 @@ TEST(SetUpOfParts, adaptiveStepAndEnergy) {
 }
 
 struct LiquidSettings {
-    double density = 1000, radius = 5e-5, spread = 0.3, speed = 5, drops = 40000, momentum = 1000, flight = 0.01,
-           first = 0, last = 1, height = 0.01, towards = 0.3, transfer = 0.01, humidity = 0.2, start = 0;
+    double density = 1000, radius = 5e-5, spread = 0.3, speed = 5, drops = 40000, momentum = 1000,
+           flight = 0.01, first = 0, last = 1, height = 0.01, towards = 0.3, transfer = 0.01, humidity = 0.2,
+           start = 0;
     std::size_t interval = 100;
     std::uint64_t seed = 1;
     bool isCone = false;
@@ -341,25 +352,24 @@ TEST(SetUpOfParts, liquid) {
         return scene;
     };
     using L = LiquidSettings;
-    expectRefusals<L>(
-        make, {{"parts/filmMass/density is 1000 kg/m^3 in the file and 900 kg/m^3 in the scene",
-                [](L& s) { s.density = 900; }},
-               {"parts/sprays/0/shape", [](L& s) { s.isCone = true; }},
-               {"parts/sprays/0/middle", [](L& s) { s.height = 0.011; }},
-               {"parts/sprays/0/direction", [](L& s) { s.towards = 0.2; }},
-               {"parts/sprays/0/dropletRadius", [](L& s) { s.radius = 6e-5; }},
-               {"parts/sprays/0/volumeSpread", [](L& s) { s.spread = 0.2; }},
-               {"parts/sprays/0/speed", [](L& s) { s.speed = 6; }},
-               {"parts/sprays/0/flow", [](L& s) { s.drops = 50000; }},
-               {"parts/sprays/0/liquidDensity", [](L& s) { s.momentum = 900; }},
-               {"parts/sprays/0/longestFlight", [](L& s) { s.flight = 0.02; }},
-               {"parts/sprays/0/firstTime", [](L& s) { s.first = 0.1; }},
-               {"parts/sprays/0/lastTime", [](L& s) { s.last = 0.9; }},
-               {"parts/sprays/0/seed", [](L& s) { s.seed = 2; }},
-               {"contacts/liquid/evaporation/fastest", [](L& s) { s.transfer = 0.02; }},
-               {"contacts/liquid/evaporation/humidity", [](L& s) { s.humidity = 0.3; }},
-               {"contacts/liquid/evaporation/start", [](L& s) { s.start = 0.1; }},
-               {"contacts/liquid/evaporation/interval", [](L& s) { s.interval = 50; }}});
+    expectRefusals<L>(make, {{"parts/filmMass/density is 1000 kg/m^3 in the file and 900 kg/m^3 in the scene",
+                              [](L& s) { s.density = 900; }},
+                             {"parts/sprays/0/shape", [](L& s) { s.isCone = true; }},
+                             {"parts/sprays/0/middle", [](L& s) { s.height = 0.011; }},
+                             {"parts/sprays/0/direction", [](L& s) { s.towards = 0.2; }},
+                             {"parts/sprays/0/dropletRadius", [](L& s) { s.radius = 6e-5; }},
+                             {"parts/sprays/0/volumeSpread", [](L& s) { s.spread = 0.2; }},
+                             {"parts/sprays/0/speed", [](L& s) { s.speed = 6; }},
+                             {"parts/sprays/0/flow", [](L& s) { s.drops = 50000; }},
+                             {"parts/sprays/0/liquidDensity", [](L& s) { s.momentum = 900; }},
+                             {"parts/sprays/0/longestFlight", [](L& s) { s.flight = 0.02; }},
+                             {"parts/sprays/0/firstTime", [](L& s) { s.first = 0.1; }},
+                             {"parts/sprays/0/lastTime", [](L& s) { s.last = 0.9; }},
+                             {"parts/sprays/0/seed", [](L& s) { s.seed = 2; }},
+                             {"contacts/liquid/evaporation/fastest", [](L& s) { s.transfer = 0.02; }},
+                             {"contacts/liquid/evaporation/humidity", [](L& s) { s.humidity = 0.3; }},
+                             {"contacts/liquid/evaporation/start", [](L& s) { s.start = 0.1; }},
+                             {"contacts/liquid/evaporation/interval", [](L& s) { s.interval = 50; }}});
 }
 
 struct MercurySettings {
@@ -394,24 +404,23 @@ TEST(SetUpOfParts, partsOfMercury) {
     };
     const auto make = [](const MercurySettings& s) { return std::make_unique<Into>(s); };
     using M = MercurySettings;
-    expectRefusals<M>(make,
-                      {{"parts/insertion boundaries/source 0/volumeFlow", [](M& s) { s.flow = 2e-4; }},
-                       {"parts/insertion boundaries/source 0/maxFailed", [](M& s) { s.tries = 101; }},
-                       {"parts/insertion boundaries/source 0/sort 0/", [](M& s) { s.radius = 0.005; }},
-                       {"parts/insertion boundaries/source 0/highest", [](M& s) { s.height = 0.09; }},
-                       {"parts/boundaries that act in steps/boundary 0/prescribedDistance",
-                        [](M& s) { s.fluxAt = 0.06; }},
-                       {"parts/prescribed paths/velocityOfGrain0", [](M& s) { s.path = 2; }}});
+    expectRefusals<M>(make, {{"parts/insertion boundaries/source 0/volumeFlow", [](M& s) { s.flow = 2e-4; }},
+                             {"parts/insertion boundaries/source 0/maxFailed", [](M& s) { s.tries = 101; }},
+                             {"parts/insertion boundaries/source 0/sort 0/", [](M& s) { s.radius = 0.005; }},
+                             {"parts/insertion boundaries/source 0/highest", [](M& s) { s.height = 0.09; }},
+                             {"parts/boundaries that act in steps/boundary 0/prescribedDistance",
+                              [](M& s) { s.fluxAt = 0.06; }},
+                             {"parts/prescribed paths/velocityOfGrain0", [](M& s) { s.path = 2; }}});
 }
 
 /// Every part of a step in the kernel, and where its settings are changed.
 const std::set<std::string> partsThatAreTested{
-    "FluidPart", "HeatPart", "BondPart", "GrainCopies", "FluxPlanePart", "OutletPart", "InletPart", "FlowPart",
-    "AdaptivePart", "AccountPart", "SprayPart", "FilmMassPart", "LiquidPart", "MercuryInsertions",
-    "MercuryActions", "MercuryPaths",
-    "DrivePart", "MembranePart",            // SetUpOfWallsTest.cpp
-    "GrainPart", "BodyPart",                // no settings: bodies are part of the state
-    "MercuryForces", "MercuryBonds"};       // a function of the driver; what is asked for in a run
+    "FluidPart",     "HeatPart",     "BondPart",     "GrainCopies",       "FluxPlanePart",
+    "OutletPart",    "InletPart",    "FlowPart",     "AdaptivePart",      "AccountPart",
+    "SprayPart",     "FilmMassPart", "LiquidPart",   "MercuryInsertions", "MercuryActions",
+    "MercuryPaths",  "DrivePart",    "MembranePart",  // SetUpOfWallsTest.cpp
+    "GrainPart",     "BodyPart",                      // no settings: bodies are part of the state
+    "MercuryForces", "MercuryBonds"};                 // a function of the driver; what is asked for in a run
 
 TEST(SetUpOfParts, areThoseOfAllParts) {
     std::set<std::string> parts;

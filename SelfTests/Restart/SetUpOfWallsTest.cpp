@@ -1,5 +1,5 @@
-// A run is resumed with walls that are set up as those that it began with: each public setting of their motion, of
-// what drives them, of wear and of membranes is changed.
+// A run is resumed with walls that are set up as those that it began with: each public setting of their
+// motion, of what drives them, of wear and of membranes is changed.
 #include <gtest/gtest.h>
 
 #include "Kernel/Simulation/Simulation.h"
@@ -99,7 +99,8 @@ TEST(SetUpOfWalls, pistonsAndTargetForces) {
 }
 
 std::vector<Triangle> square() {
-    return {{{-0.01, -0.01, 0}, {0.01, -0.01, 0}, {0.01, 0.01, 0}}, {{-0.01, -0.01, 0}, {0.01, 0.01, 0}, {-0.01, 0.01, 0}}};
+    return {{{-0.01, -0.01, 0}, {0.01, -0.01, 0}, {0.01, 0.01, 0}},
+            {{-0.01, -0.01, 0}, {0.01, 0.01, 0}, {-0.01, 0.01, 0}}};
 }
 
 TEST(SetUpOfWalls, slidersAndWear) {
@@ -107,7 +108,8 @@ TEST(SetUpOfWalls, slidersAndWear) {
         [](OneGrain& scene, const Settings& s) {
             TriangleWall wall;
             wall.set(square());
-            if (s.isDriven) wall.setSlider({0, 0, 1}, {.mass = s.mass, .force = s.load, .friction = s.friction});
+            if (s.isDriven)
+                wall.setSlider({0, 0, 1}, {.mass = s.mass, .force = s.load, .friction = s.friction});
             scene.add(wall);
         },
         {{"firstInertia", [](Settings& s) { s.mass = 2e-3; }},

@@ -39,9 +39,10 @@ PartSettings::PartSettings(const py::object& given, const std::string& who) {
             areNumbers ? Doubles::ensure(py::reinterpret_borrow<py::object>(value)) : Doubles();
         if (!areNumbers || !column) {
             PyErr_Clear();
-            throw InputError(fmt::format("{}: settings['{}'] must be a number, an array of numbers or a text, "
-                                         "and its name must have a letter, and no /.",
-                                         who, name));
+            throw InputError(
+                fmt::format("{}: settings['{}'] must be a number, an array of numbers or a text, "
+                            "and its name must have a letter, and no /.",
+                            who, name));
         }
         numbers.emplace(name, std::vector<double>(column.data(), column.data() + column.size()));
     }
