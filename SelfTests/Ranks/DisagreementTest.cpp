@@ -9,6 +9,7 @@
 
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Parts/HeatPart.h"
+#include "Kernel/Ranks/GrainSharing.h"
 #include "Kernel/Ranks/VirtualRanks.h"
 #include "Kernel/Walls/Membrane.h"
 #include "SelfTests/Scenes/SettlingBox.h"

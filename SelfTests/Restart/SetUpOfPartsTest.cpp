@@ -250,7 +250,7 @@ TEST(SetUpOfParts, inlets) {
          {"parts/inlets/0/kind0/smallest", [](I& s) { s.sizes = evenSizes(0.9e-3, 1.2e-3); }},
          {"parts/inlets/0/kind0/largest", [](I& s) { s.sizes = evenSizes(1e-3, 1.3e-3); }},
          {"parts/inlets/0/kind0/meanDiameter",
-          [](I& s) { s.sizes = normalSizes(1.05e-3, 1e-4, 1e-3, 1.2e-3); }},
+          [](I& s) { s.sizes = normalSizes(1.05e-3, 1e-4, 1e-3, 1.2e-3).sizes; }},
          {"parts/inlets/0/kind0/kind is grain in the file and clump in the scene",
           [](I& s) { s.areClumps = true; }},
          {"parts/inlets/0/numberFlow", [](I& s) { s.number = 6000; }},
@@ -395,8 +395,8 @@ TEST(SetUpOfParts, partsOfMercury) {
             plane.setPrescribedDistance([at = s.fluxAt](double) { return at; });
             boundaryHandler.copyAndAddObject(plane);
             grain.setRadius(0.002), grain.setPosition({0.05, 0.05, 0.2}), grain.fixParticle();
-            auto moving = particleHandler.copyAndAddObject(grain);
-            moving->setPrescribedVelocity([speed = s.path](double) { return Vec3D(speed, 0, 0); });
+            setPrescribedVelocity(particleHandler.copyAndAddObject(grain),
+                                  [speed = s.path](double) { return Vec3D(speed, 0, 0); });
             setTimeStep(1e-5);
             setTimeMax(1);
             setQuiet();

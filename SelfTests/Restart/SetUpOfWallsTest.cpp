@@ -99,8 +99,9 @@ TEST(SetUpOfWalls, pistonsAndTargetForces) {
 }
 
 std::vector<Triangle> square() {
-    return {{{-0.01, -0.01, 0}, {0.01, -0.01, 0}, {0.01, 0.01, 0}},
-            {{-0.01, -0.01, 0}, {0.01, 0.01, 0}, {-0.01, 0.01, 0}}};
+    using V = Vector<double>;
+    const V a{-0.01, -0.01, 0}, b{0.01, -0.01, 0}, c{0.01, 0.01, 0}, d{-0.01, 0.01, 0};
+    return {Triangle{a, b, c}, Triangle{a, c, d}};
 }
 
 TEST(SetUpOfWalls, slidersAndWear) {
