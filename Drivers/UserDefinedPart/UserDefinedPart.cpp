@@ -35,6 +35,10 @@ struct Draught : StepPart {
         }
         work += step.contacts.ranks().sum(workOfStep);
     }
+    void compareSetUp(StateArchive& archive, StepContext& /*scene*/) override {
+        archive.same("density", density, "kg/m^3"), archive.same("viscosity", viscosity, "Pa s");
+        archive.sameRecord<double>("velocity", toVector(air), "m/s");
+    }
     void visitState(StateArchive& archive, StepContext& /*scene*/) override { archive.finite("work", work); }
     void addTo(SummaryRows& rows) const override { rows.addNumber("work of the draught", work, "J"); }
 

@@ -315,14 +315,35 @@ void HeatPart::atEnd(StepContext& step) {
     heat.stored = storedIn(step);
 }
 
-/// Settings are those with which the run began, or, where it has changed them, those of the file.
-void HeatPart::visitSettings(StateArchive& archive) {
+/// Those with which the run began.
+void HeatPart::compareSettings(StateArchive& archive) const {
+    archive.same("materials", static_cast<std::uint64_t>(materials.size()));
+    for (const auto& [species, m] : materials)
+        archive.group(fmt::format("species{}", species), [&, &m = m] {
+            archive.same("conductivity", m.conductivity, "W/(m K)");
+            archive.same("heatCapacity", m.heatCapacity, "J/(kg K)");
+        });
+    archive.same("heldWalls", static_cast<std::uint64_t>(heldWalls.size()));
+    for (const auto& [wall, held] : heldWalls)
+        archive.group(fmt::format("wall{}", wall), [&, &held = held] {
+            archive.same("temperature", held.temperature, "K");
+            archive.same("conductivity", held.conductivity, "W/(m K)");
+        });
+    archive.same("conduction", static_cast<int>(conduction));
+    archive.same("radiusFactor", radiusFactor);
+    archive.same("heatByContacts", contactsHeat ? 1 : 0);
+}
+
+/// Where the run has changed them, they are those of the file.
+void HeatPart::compareSetUp(StateArchive& archive, StepContext& /*scene*/) {
     struct MaterialRow {
         double species, conductivity, heatCapacity;
     };
     struct WallRow {
         double wall, temperature, conductivity;
     };
+    archive.value("settingsChanged", changedInRun);
+    if (!changedInRun) return compareSettings(archive);
     std::vector<MaterialRow> ofSpecies;
     std::vector<WallRow> ofWalls;
     std::array<double, 3> laws{static_cast<double>(conduction), radiusFactor, contactsHeat ? 1.0 : 0.0};
@@ -330,15 +351,8 @@ void HeatPart::visitSettings(StateArchive& archive) {
         ofSpecies.push_back({static_cast<double>(species), m.conductivity, m.heatCapacity});
     for (const auto& [wall, held] : heldWalls)
         ofWalls.push_back({static_cast<double>(wall), held.temperature, held.conductivity});
-    archive.value("settingsChanged", changedInRun);
-    if (!changedInRun) {
-        archive.same<double>("materials", std::span<const MaterialRow>(ofSpecies));
-        archive.same<double>("heldWalls", std::span<const WallRow>(ofWalls));
-        archive.sameRecord<double>("laws", laws);
-        return;
-    }
-    archive.column<double>("materials", ofSpecies);
-    archive.column<double>("heldWalls", ofWalls);
+    archive.column<double>("materialsNow", ofSpecies);
+    archive.column<double>("heldWallsNow", ofWalls);
     archive.record<double>("laws", laws);
     if (!archive.isReading()) return;
     materials.clear(), heldWalls.clear();
@@ -359,7 +373,6 @@ void HeatPart::visitState(StateArchive& archive, StepContext& /*scene*/) {
     for (const auto& [wall, given] : byWalls) ofWalls.push_back({static_cast<double>(wall), given.sum});
     archive.finite("ledger", heat);
     archive.column<double>("fromEachWall", ofWalls);
-    visitSettings(archive);
     if (!archive.isReading()) return;
     archive.requireFinite("fromEachWall", ofWalls);
     for (const Row& row : ofWalls) byWalls[static_cast<int>(row.wall)].sum = row.heat;

@@ -106,6 +106,7 @@ public:
     void check(const StepContext& scene) override;
     void begin(StepContext& scene, bool isRestarted) override;
     void atEnd(StepContext& step) override;
+    void compareSetUp(StateArchive& archive, StepContext& scene) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
     void addTo(SummaryRows& rows) const override;
 
@@ -121,7 +122,7 @@ private:
     };
 
     void setMaterialOf(int species, const HeatMaterial& material);
-    void visitSettings(StateArchive& archive);
+    void compareSettings(StateArchive& archive) const;
     void requireTemperatures(StepContext& step) const;
     [[nodiscard]] std::optional<std::string> objectionToSoftening(const ContactLaws& ofScene) const;
     [[nodiscard]] double capacityAt(const StepContext& step, std::uint32_t place) const;

@@ -385,12 +385,26 @@ void GrainSharing::exchangeMotion(ParticleStore& grains, bool withAccelerations)
     else withAccelerations ? exchangeMotionOf<false, true>(grains) : exchangeMotionOf<false, false>(grains);
 }
 
-double GrainSharing::exchangeStep(ParticleStore& grains, bool withAccelerations, double ownShift) {
-    if (!isDistributed) return ownShift;
+/// Three numbers whose largest ones tell the largest of one, and whether the other is the same on all ranks.
+/// A double has 52 bits of it: by chance two are taken for the same once in 4e15.
+static Exchange::Three threeOf(double largest, std::uint64_t alike) {
+    const auto number = static_cast<double>(alike >> 12);
+    return {std::isnan(largest) ? infinity : largest, number, -number};
+}
+static GrainSharing::OfAll toldBy(const Exchange::Three& most) { return {most[0], most[1] == -most[2]}; }
+
+GrainSharing::OfAll GrainSharing::exchangeStep(ParticleStore& grains, bool withAccelerations, double ownShift,
+                                               std::uint64_t alike) {
+    if (!isDistributed) return {ownShift, true};
     times.addStep();
-    exchange.beginLargest(std::isnan(ownShift) ? infinity : ownShift);
+    exchange.beginLargest(Reduction::Step, threeOf(ownShift, alike));
     exchangeMotion(grains, withAccelerations);
-    return exchange.endLargest();
+    return toldBy(exchange.endLargest());
+}
+
+GrainSharing::OfAll GrainSharing::agree(Reduction what, std::uint64_t alike, double own) {
+    exchange.beginLargest(what, threeOf(own, alike));
+    return toldBy(exchange.endLargest());
 }
 
 }  // namespace pendular

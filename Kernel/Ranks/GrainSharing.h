@@ -82,9 +82,20 @@ public:
     /// Ghosts get the motion of the grains that they stand for.
     /// @param withAccelerations contacts feel them
     void exchangeMotion(ParticleStore& grains, bool withAccelerations);
-    /// The same for a step, and at the same time the largest of how far grains have moved on the ranks.
+    /// The same for a step, and at the same time the largest of how far grains have moved on the ranks, and
+    /// whether a number is the same on all of them.
     /// @param ownShift m; what is not a number counts as infinite
-    [[nodiscard]] double exchangeStep(ParticleStore& grains, bool withAccelerations, double ownShift);
+    struct OfAll {
+        double shift;  // m
+        bool areAlike;
+    };
+    [[nodiscard]] OfAll exchangeStep(ParticleStore& grains, bool withAccelerations, double ownShift,
+                                     std::uint64_t alike);
+    /// Whether all ranks give the same number; and the largest of another one.
+    [[nodiscard]] OfAll agree(Reduction what, std::uint64_t alike, double own = 0);
+    [[nodiscard]] std::vector<std::string> textsOfAll(const std::string& own) {
+        return exchange.textsOfAll(own);
+    }
 
     /// Ghosts get a number of the grains, or of the rigid bodies, that they stand for.
     /// @param ofGrains at each place; @param ofBodies at each place, ghosts included

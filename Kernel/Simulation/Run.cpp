@@ -161,7 +161,11 @@ void Run::step(std::size_t count) {
     if (course)
         throw InputError(
             "Simulation: step() writes no outputs, and this run goes on in parts; call runSteps() instead.");
-    for (std::size_t k = 1; k <= count; ++k) stepOnce(k < count);
+    for (std::size_t k = 1; k <= count; ++k) {
+        stepsOfCall = count - k + 1;
+        stepOnce(k < count);
+    }
+    stepsOfCall = 0;
 }
 
 void Run::stepOnce(bool another) {

@@ -60,6 +60,9 @@ bool Scene::isShared() const { return inside->sharing.has_value(); }
 void Scene::onFirstRank(const std::function<void()>& write) { inside->onFirstRank(write); }
 double Scene::agreeOnLargest(double own) { return isShared() ? inside->sharing->largest(own) : own; }
 
+double Scene::agreeOnDecisions(double own) { return isShared() ? inside->agreeOnDecisions(own) : own; }
+void Scene::agreeOnSettings() { inside->agreeOnSettings(); }
+
 void Scene::tellEvents() {
     if (!contacts().events().isListening()) return;
     if (inside->isDistributed())

@@ -189,6 +189,9 @@ public:
     /// when): addPart<Draught>(speed). At set-up only. Throws InputError if there is a part of its name.
     template <std::derived_from<StepPart> Part, class... Arguments>
     Part& addPart(Arguments&&... arguments) {
+        static_assert(!std::is_abstract_v<Part>,
+                      "A part of the step lists what a driver sets of it in compareSetUp(StateArchive&, "
+                      "StepContext&), by archive.same(): a run is resumed with the same settings only.");
         auto part = std::make_unique<Part>(std::forward<Arguments>(arguments)...);
         Part& added = *part;
         addOwnPart(std::move(part));
@@ -317,6 +320,8 @@ private:
     void onFirstRank(const std::function<void()>& write) override;
     [[nodiscard]] bool areGrainsOnRanks() const override;
     [[nodiscard]] double agreeOnLargest(double own) override;
+    [[nodiscard]] double agreeOnDecisions(double own) override;
+    void agreeOnSettings() override;
     void visitAll(StateArchive& archive) override;
     void writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contacts,
                         const std::string& remark) override;

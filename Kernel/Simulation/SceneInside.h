@@ -71,6 +71,12 @@ public:
     void onFirstRank(const std::function<void()>& write);
     /// Of all ranks together; all must call it.
     [[nodiscard]] RunNumbers numbersOfAll();
+    // These throw RunError where ranks differ in what they must have alike; all must call them. At set-up it
+    // is an InputError.
+    /// The largest of what the ranks give, if they have decided alike.
+    [[nodiscard]] double agreeOnDecisions(double own);
+    /// Species, walls and parts, which hooks may have changed; where each rank has all grains, these, too.
+    void agreeOnSettings();
 
     // SceneChanges.cpp
 
@@ -140,6 +146,7 @@ public:
     bool noRoomWasTold = false;                    // of insert() in the run
     std::vector<ContactEvent> eventsOfAll;         // of the last step, where ranks have their own grains only
     std::optional<GrainSharing> sharing;           // none: the scene has all grains
+    std::size_t listsAgreed = 0;                   // of contacts, at which ranks have compared what they have
 
 private:
     [[nodiscard]] ContactLaws& laws() const { return *context.laws; }
@@ -186,6 +193,16 @@ private:
     void computeChanged(const GrainChanges& changes, int firstNewWall, bool heldAreNew);
     void refuseOverlapsOf(const GrainChanges& changes, int firstNewWall) const;
     void refuseOtherMemory() const;
+
+    // SceneRanks.cpp
+    /// What all ranks must have alike: in each step, at each list of contacts, and at set-up.
+    void visitStep(StateArchive& archive);
+    void visitSettings(StateArchive& archive);
+    void visitSetUp(StateArchive& archive);
+    void agreeAtList();
+    void agreeOnAll();
+    [[nodiscard]] std::uint64_t hashOfStep();
+    [[noreturn]] void refuseDifference(const std::string& difference) const;
 
     void visitScene(StateArchive& archive);
     void visitSurroundings(StateArchive& archive);

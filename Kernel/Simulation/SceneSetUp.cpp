@@ -71,6 +71,7 @@ void Scene::Inside::setUp() {
     }
     prepare();
     ParticleStore& grains = particles.store();
+    if (sharing) agreeOnAll();
     if (periodicWalls.haveEnds()) wrapAll(grains);
     contacts.refresh(grains, 0, 0);
     if (gapOfFirstBridges > 0) {

@@ -97,7 +97,21 @@ void StepList::visitStates(StateArchive& archive, StepContext& context) const {
     for (const auto& part : own) names.push_back(part->name());
     archive.same("partsOfTheDriver", fmt::format("{}", fmt::join(names, ", ")));
     for (StepPart* const part : parts)
-        archive.group(part->name(), [&] { part->visitState(archive, context); });
+        archive.group(part->name(), [&] {
+            part->compareSetUp(archive, context);
+            part->visitState(archive, context);
+        });
+}
+
+void StepList::compareSetUps(StateArchive& archive, StepContext& context) const {
+    for (StepPart* const part : parts)
+        archive.group(part->name(), [&] { part->compareSetUp(archive, context); });
+}
+
+std::vector<std::string_view> StepList::names() const {
+    std::vector<std::string_view> all;
+    for (const StepPart* const part : parts) all.push_back(part->name());
+    return all;
 }
 
 void StepList::addTo(SummaryRows& rows) const {

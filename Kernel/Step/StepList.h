@@ -46,6 +46,9 @@ public:
     /// A group of each part, asleep or not: a scene that goes on is held against all of them.
     void visitSettings(StateArchive& archive, StepContext& context) const;
     void visitStates(StateArchive& archive, StepContext& context) const;
+    /// What drivers set of all parts, for ranks to compare.
+    void compareSetUps(StateArchive& archive, StepContext& context) const;
+    [[nodiscard]] std::vector<std::string_view> names() const;
     void addTo(SummaryRows& rows) const;
 
 private:

@@ -127,6 +127,8 @@ private:
     [[nodiscard]] RigidVelocity askedVelocity(double time) const;
     void requireSameMotion(const StateArchive& archive) const;
     void beginSteadyMotion();
+    void noteSetUp();
+    void compareMotionAtSetUp(StateArchive& archive) const;
     double placeAt(double time);
     void listOwn(const Vector<double>& centre, double reach, std::vector<std::uint32_t>& parts) const final;
     void findOwn(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
@@ -148,6 +150,8 @@ private:
     std::function<Eigen::Isometry3d(double)> motion;
     bool followsFunction = false;             // and not `steady`
     Vector<double> surfaceVelocity{0, 0, 0};  // m/s, in the body's frame
+    RigidVelocity steadyAtSetUp;
+    Vector<double> surfaceVelocityAtSetUp{0, 0, 0};
     Pose pose;
     RigidVelocity velocity;
 };

@@ -75,6 +75,24 @@ TEST(Drivers, printNothingWhereTheyAreQuietAndGoOnAtTheirEnd) {
     }
 }
 
+/// A run is not resumed with another fluid, nor with other speeds.
+TEST(FluidisedColumn, isResumedWithTheFluidThatItBeganWith) {
+    if (!Hdf5File::isAvailable()) GTEST_SKIP() << "no HDF5 library";
+    const TestFolder folder;
+    const std::string column =
+        drivers + "/FluidisedColumn/FluidisedColumn --cells 2 --stage-s 0.002 " + folder.option();
+    ASSERT_EQ(run(column).exitCode, 0);
+    for (const auto& [option, sentence] :
+         {std::pair{" --model-b", "parts/fluid/model is A in the file and B in the scene"},
+          {" --law Ergun", "parts/fluid/law is Gidaspow in the file and Ergun in the scene"},
+          {" --largest 4", "superficialSpeed is "}}) {
+        const auto again = run(column + " --resume" + option);
+        EXPECT_NE(again.exitCode, 0) << option;
+        EXPECT_NE(again.output.find(sentence), std::string::npos) << again.output;
+    }
+    EXPECT_EQ(run(column + " --resume").exitCode, 0);
+}
+
 /// Before anything is computed: the grains of this drum would take days to settle.
 TEST(RotatingDrum, needsAFolderThatItCanWrite) {
     const std::string large = drum + "--number 1000000 --output ";

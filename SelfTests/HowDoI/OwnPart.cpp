@@ -22,6 +22,9 @@ struct StillAir : StepPart {
             taken += 0.5 * grain.getMass() * (before.squaredNorm() - grain.getVelocity().squaredNorm());
         }
     }
+    void compareSetUp(StateArchive& archive, StepContext&) override {
+        archive.same("viscosity", viscosity, "Pa s");  // a run is resumed with the same air
+    }
     void visitState(StateArchive& archive, StepContext&) override { archive.finite("taken", taken); }
     void addTo(SummaryRows& rows) const override { rows.addNumber("energy taken by the air", taken, "J"); }
 

@@ -298,6 +298,7 @@ std::string refusalOnRanks(SetUp&& setUp) {
 
 struct NoPart : StepPart {
     [[nodiscard]] std::string_view name() const override { return "no part"; }
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}  // it has no settings
 };
 
 TEST(SharedScene, refusesWhatRanksCannotShareYet) {
