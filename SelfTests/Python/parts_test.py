@@ -169,7 +169,7 @@ def rolling_tower(modulus, factor=1.0):
     sand = scene.add_species("HertzianViscoelasticMindlinRollingTorsion", density=2500, young_modulus=modulus, poisson_ratio=0.25,
                              restitution_coefficient=0.3, sliding_friction_coefficient=0.5, rolling_friction_coefficient=0.1,
                              torsion_friction_coefficient=0.1, rolling_stiffness=1e6 * factor, torsion_stiffness=1e6 * factor,
-                             rolling_dissipation=1e-3 * factor**0.5, torsion_dissipation=1e-3 * factor**0.5)
+                             rolling_dissipation=factor**0.5, torsion_dissipation=factor**0.5)
     scene.add_plane(sand, (0, 0, -1), (0, 0, 0))
     scene.add_grains(sand, [[0, 0, 1.2e-3], [0, 0, 3.3e-3], [0, 0, 5.4e-3]], 1e-3)
     scene.gravity = (0, 0, -9.81)

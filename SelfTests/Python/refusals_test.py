@@ -31,10 +31,10 @@ MISUSES = {
     "negative density": (lambda s: s.glass.set(density=-1), "density"),
     "NaN as a field": (lambda s: s.glass.set(sliding_friction_coefficient=nan), "sliding_friction_coefficient"),
     "a ratio that no material has": (
-        lambda s: s.add_species("HertzianViscoelasticMindlin", density=2500, young_modulus=5e6, poisson_ratio=0.6), r"poisson_ratio = 0\.6; .*0\.5"),
+        lambda s: s.add_species("HertzianViscoelasticMindlin", density=2500, young_modulus=5e6, poisson_ratio=0.6), r"poisson_ratio = 0\.6 is out of range; .* at most 0\.5"),
     "a ratio of almost 1": (lambda s: s.glass.set(young_modulus=5e6, poisson_ratio=0.99), r"poisson_ratio = 0\.99"),
     "a ratio of -1": (lambda s: s.glass.set(young_modulus=5e6, poisson_ratio=-1), "poisson_ratio = -1"),
-    "a modulus below 0": (lambda s: s.glass.set(young_modulus=-5e6, poisson_ratio=0.3), r"young_modulus = -5e\+06 Pa"),
+    "a modulus below 0": (lambda s: s.glass.set(young_modulus=-5e6, poisson_ratio=0.3), "young_modulus = -5"),
     "modulus without ratio": (lambda s: s.glass.set(young_modulus=1e6), "together"),
     "modulus of a linear law": (
         lambda s: s.add_species("LinearViscoelastic", young_modulus=1e6, poisson_ratio=0.3), "names are stiffness|names are restitution"),

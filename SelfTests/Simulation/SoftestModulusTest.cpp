@@ -153,10 +153,6 @@ struct RollingScene : scenes::FewGrains<Rolling> {
                     1e-7) {
         setGravity({0, 0, -9.81});
     }
-    void setDashpots(double dissipation) {
-        speciesHandler.getObject(0)->setRollingDissipation(dissipation);
-        speciesHandler.getObject(0)->setTorsionDissipation(dissipation);
-    }
     static Rolling material(double modulus, double rollingStiffness) {
         Rolling s;
         s.setDensity(2500);
@@ -165,7 +161,8 @@ struct RollingScene : scenes::FewGrains<Rolling> {
         s.setRestitutionCoefficient(0.5);
         s.setSlidingFrictionCoefficient(0.5);
         s.setRollingStiffness(rollingStiffness), s.setTorsionStiffness(rollingStiffness);
-        s.setRollingDissipation(1e-4), s.setTorsionDissipation(1e-4);
+        const double dashpot = 1e-3 * std::sqrt(rollingStiffness);  // kg/s; of 1e6 N/m it rules, too
+        s.setRollingDissipation(dashpot), s.setTorsionDissipation(dashpot);
         s.setRollingFrictionCoefficient(0.1), s.setTorsionFrictionCoefficient(0.1);
         return s;
     }
@@ -191,7 +188,6 @@ TEST(SoftestModulus, tellsTheStepsThatTheSceneHas) {
         RollingScene moduli(advice.modulus, rolling);
         EXPECT_NEAR(advice.step->byModuli, chosenTimeStep(moduli), 1e-9 * before);
         RollingScene all(advice.modulus, rolling * std::pow(factor, 2.0 / 3));
-        all.setDashpots(1e-4 * std::pow(factor, 1.0 / 3));
         EXPECT_NEAR(advice.step->after, chosenTimeStep(all), 1e-9 * before);
         const double decades = 2 * std::log10(advice.step->after / before);
         EXPECT_NEAR(advice.leastGain, std::pow(2.2, decades), 1e-9);
@@ -239,7 +235,6 @@ TEST(SoftestModulus, namesAllThatIsToBeScaled) {
 // for the values that it has now.
 TEST(SoftestModulus, comparesWithTheMaterialWhereTheSceneIsSofter) {
     RollingScene soft(1e6, 1e-2), hard(1e9, 1e-2 * std::pow(1e3, 2.0 / 3));
-    hard.setDashpots(1e-4 * std::pow(1e3, 1.0 / 3));
     const SoftnessAdvice advice = softestModulus(soft, frictionOf(soft, 1e9));
     EXPECT_NEAR(advice.step->before, chosenTimeStep(hard), 1e-9 * advice.step->before);
     EXPECT_NEAR(advice.step->fields.front().factor, advice.modulus / 1e6, 1e-9 * advice.modulus / 1e6);
