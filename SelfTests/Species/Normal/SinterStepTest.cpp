@@ -219,8 +219,9 @@ struct Diffusing : scenes::FewGrains<HertzianViscoelasticParhamiMcMeekingSinterS
 
 // Each contact has the same force, a D against b x^4 d', so that d^3 = d0^3 + 3 a t / (4 b) in rows and beds
 // (R = 1 m). Dashpots are here up to 4000 times what the limit of the step, at an overlap of R/20, knows:
-// where those of neighbours are explicit, rows of three part within 100 steps. From step 200 on bodies have
-// come to their speeds; then a difference of overlaps of 1e-6 m or more is rounded by 1e-16 m.
+// where those of neighbours are explicit, rows of three part within 100 steps. By step 1000 bodies have come
+// to their speeds: the slowest mode of a row of eight has L = 0.076, by which 1 - 2 L / 6 is left of it in a
+// step (implicitNeighbours). A difference of overlaps of 1e-6 m or more is then rounded by 1e-16 m.
 TEST(SinterStep, bedsSinterByDashpotsAtAnyStep) {
     for (const bool isRow : {true, false})
         for (const double overlap : {0.2, 0.5})
@@ -228,7 +229,7 @@ TEST(SinterStep, bedsSinterByDashpotsAtAnyStep) {
                 Diffusing scene(isRow, overlap, 1e-9);
                 scene.acceptUnstableTimeStep(), scene.acceptOverlaps(1);
                 scene.setTimeStep(longer * scene.stabilityLimit());
-                scene.run(200);
+                scene.run(1000);
                 const std::vector<double> before = scene.overlaps();
                 const double start = scene.getTime();
                 scene.step(4000);
