@@ -115,9 +115,6 @@ public:
     /// N/m, the slope of the normal law at an overlap (m).
     [[nodiscard]] virtual double normalStiffness(int a, int b, const Bodies& bodies,
                                                  double overlap) const = 0;
-    /// Where the bodies touch at an overlap (m).
-    [[nodiscard]] virtual ContactSpot contactSpot(int a, int b, const Bodies& bodies,
-                                                  double overlap) const = 0;
     /// What is out of the domain of each law, with the law's name.
     [[nodiscard]] virtual std::vector<std::pair<std::string_view, DomainLimit>> brokenLimits(
         int a, int b, const Bodies& bodies) const = 0;
@@ -136,6 +133,10 @@ public:
     [[nodiscard]] virtual const ContactLaws& ofBucket(std::size_t /*bucket*/) const { return *this; }
     /// The forces of a part of a bucket; false if a block needs memory first: it is marked then.
     virtual bool compute(const ContactTask& task) const = 0;
+
+    /// Where the bodies touch at an overlap (m).
+    [[nodiscard]] virtual ContactSpot contactSpot(int a, int b, const Bodies& bodies,
+                                                  double overlap) const = 0;
 };
 
 /// The laws between two species.

@@ -187,8 +187,8 @@ TEST(Sinter, overlapsMayReachTheRadius) {
     } catch (const RunError& error) {
         EXPECT_TRUE(contains(error.what(), "more than 100 %"));
     }
-    EXPECT_GT(deepest / pair.radius, 1);
-    EXPECT_LT(deepest / pair.radius, 1.15);  // looked for after approaches of a tenth
+    EXPECT_GT(deepest / pair.radius, 1 - 1e-4);  // the last step before grows it by 2 r R dt = 1e-4 R
+    EXPECT_LT(deepest / pair.radius, 1.15);      // looked for after approaches of a tenth
 }
 
 // First loading 4/3 E1 sqrt(2 D) d^(3/2), D = 2 R*; unloading from d_0; a pull of E_c below it; then the

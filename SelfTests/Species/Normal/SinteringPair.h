@@ -9,12 +9,14 @@ namespace pendular::scenes {
 /// Equal grains in a row along x, each of which overlaps its neighbours: two, or more.
 template <class S>
 struct SinteringPair : FewGrains<S> {
-    /// @param mass kg, of each; @param apart m/s, at which the second is drawn off
+    /// @param mass kg, of each; @param apart m/s, at which the second is drawn off; @param adaptive of the
+    /// stable step, with which steps are chosen; 0: they are as given
     SinteringPair(S species, double grainRadius, double mass, double overlap, double step, double apart = 0,
-                  int count = 2)
+                  int count = 2, double adaptive = 0)
         : FewGrains<S>(withMass(species, grainRadius, mass), row(grainRadius, overlap, apart, count), step),
           radius(grainRadius) {
         this->keepEnergyLedger();
+        if (adaptive > 0) this->setAdaptiveTimeStep(adaptive);
         this->initialise();
     }
     /// m, of a grain with the next
