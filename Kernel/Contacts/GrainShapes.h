@@ -23,9 +23,6 @@ struct ShapedTouch {
     Vector<double> arm1;    // m, from the centre of body 1 to the middle of the overlap
     double radius;          // m, the effective radius as the laws take it
     Bodies own{radius};     // m, Gauss' radius of each; infinite of what is flat
-
-    /// m, from the centre of body 1 to the surface of a wall.
-    [[nodiscard]] Vector<double> onWall() const { return arm1 - (0.5 * depth) * normal; }
 };
 
 /// What the contacts of a grain can be at most, wherever on its surface they are.

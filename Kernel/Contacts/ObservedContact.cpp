@@ -54,7 +54,7 @@ ObservedContact observeContact(const ContactStore& contacts, const ContactLaws& 
                      : shapes->touch(grains, block.first[lane], block.second[lane], seen.shift);
         seen.separation = -touch->depth;
         seen.ownNormal = touch->normal;
-        if (wall) seen.shift = touch->onWall();
+        if (wall) seen.shift = touch->arm1 - (0.5 * touch->depth) * touch->normal;
         seen.point = first.position + (wall ? seen.shift : touch->arm1);
     }
     if (seen.bridged) {

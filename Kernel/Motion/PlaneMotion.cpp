@@ -7,6 +7,7 @@
 
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Math/ExactSum.h"
+#include "Kernel/Particles/DampedServo.h"
 
 namespace pendular {
 namespace {
@@ -52,12 +53,12 @@ double beginServo(const ContactSystem& contacts, const ParticleStore& grains, st
         const double layers = static_cast<double>(contacts.ranks().sum(grains.count())) /
                               static_cast<double>(std::max<std::uint64_t>(drive.touches, 1));
         const SpringAndDashpot own = wallStiffness(contacts, grains, static_cast<int>(number));
-        // A time below a step: the mass of the grains leaves no room for a gain near 2 (Servo.h).
+        // A time below a step: the mass of the grains leaves no room for a gain near 2.
         const double ofStep = own.spring * std::max(0.0, step.length - asked.time);
-        drive.servo.look(dot(toVector(wall.getForce()), wall.drivenNormal()), asked.load, own.spring,
-                         static_cast<double>(interval) * step.length, asked.time,
-                         asked.time * std::max(servoDriftTimes, 4 * layers), asked.largestSpeed,
-                         own.dashpot + ofStep);
+        lookBesideDashpots(drive.servo, dot(toVector(wall.getForce()), wall.drivenNormal()), asked.load,
+                           own.spring, own.dashpot + ofStep, static_cast<double>(interval) * step.length,
+                           asked.time, asked.time * std::max(servoDriftTimes, 4 * layers),
+                           asked.largestSpeed);
     }
     drive.velocity = drive.servo.speed;
     return step.length * drive.velocity;

@@ -22,22 +22,6 @@ namespace pendular {
 /// one (loose grains that come together), nothing is learnt, so that nothing winds up. Source: Rivera, Morari
 /// and Skogestad (1986), Ind. Eng. Chem. Process Des. Dev. 25, 252: PI by the model of what is controlled.
 ///
-/// **Dashpots.** The value that is read holds what dashpots C of the contacts answer to the servo's own speed
-/// of the last step, value = (elastic part) - C speed_last. By the law above this is fed back from step to
-/// step with the factor -C / (stiffness x time): the roots of the massless loop with the step h, z^2 - (1 -
-/// h/time - C/(K time)) z - C/(K time) = 0, leave the unit circle at C/(K time) = 1 - h/(2 time), and the
-/// value rings ever more below time = C/K + h/2. So the dashpots' answer is taken at the new speed, which is
-/// the law above solved for it:
-///
-///     speed = (value - target + C speed_last + K time drift) / (K time + C).
-///
-/// The loop then has the root 1 - h / (time + C/K): it is stable for h < 2 (time + C/K), whatever C is, and
-/// still where the true dashpots are up to 2 C + K time (the other root is their excess over K time + C). A
-/// column of L grains, with their masses, is stable as well (SelfTests/Particles/ServoTest.cpp has the
-/// spectral radius). At rest speed_last = speed = 0: the target is the same. The value comes by exp(-t /
-/// (time + C/K)), a column of L layers by exp(-t / ((L + 1) time + C/K)): that share of C/K is not due to the
-/// remedy, but to the dashpots being part of the value.
-///
 /// Where the value is softer than thought, stiffness a with a share a < 1, the roots of
 /// s^2 + a (1/time + 1/driftTime) s + a / (time x driftTime) have negative real parts for any a > 0; they are
 /// real, so that nothing rings, if a >= 4 n / (n + 1)^2, n = driftTime / time: the value goes beyond its
@@ -46,7 +30,7 @@ namespace pendular {
 struct Servo {
     double speed = 0;      // of the value's choice: m/s, 1/s
     double drift = 0;      // in the same unit
-    double last = 0;       // the value when it was looked at last, without what its speed gave it
+    double last = 0;       // the value when it was looked at last
     bool hasLast = false;  // it was, and there was a stiffness
     bool arrived = false;  // the value has come to its target
     double waited = 0;     // s, for that
@@ -60,32 +44,29 @@ struct Servo {
     /// Takes the speed for the time to come.
     /// @param stiffness of the value against what the speed moves, not negative
     /// @param interval s, since the last look; @param time, driftTime s; @param largest speed, positive
-    /// @param dashpot C, of the value against the speed, not negative
     void look(double value, double target, double stiffness, double interval, double time, double driftTime,
-              double largest, double dashpot = 0) {
+              double largest) {
         if (!(stiffness > 0)) {
             forget();  // nothing resists: as fast as is allowed
             speed = value == target ? 0 : std::copysign(largest, value - target);
             return;
         }
-        const double own = value + dashpot * speed, off = own - target;
-        const double slower = 1 + dashpot / (stiffness * time);
-        driftTime *= slower;
+        const double off = value - target;
         waited += interval;
         arrived = arrived || std::abs(off) <= 0.1 * std::abs(target) ||
                   (hasLast && off * (last - target) <= 0) || waited > 4 * driftTime;
         if (hasLast && arrived) {
-            const double seen = (own - last) / (stiffness * interval) + speed;
+            const double seen = (value - last) / (stiffness * interval) + speed;
             const double share = std::min(1.0, interval / driftTime);
             drift = std::clamp(drift + share * (seen - drift), -largest, largest);
         }
-        speed = off / (stiffness * time + dashpot) + drift / slower;
+        speed = off / (stiffness * time) + drift;
         if (std::abs(speed) >= largest) {
             forget();
             speed = std::copysign(largest, speed);
             return;
         }
-        last = own;
+        last = value;
         hasLast = true;
     }
 

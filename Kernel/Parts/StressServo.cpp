@@ -8,6 +8,7 @@
 #include "Kernel/Contacts/BodyArms.h"
 #include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Math/ExactSum.h"
+#include "Kernel/Particles/DampedServo.h"
 #include "Kernel/Particles/MovingBodies.h"
 
 namespace pendular {
@@ -82,9 +83,8 @@ struct RateSums {
     std::array<ExactSum, 3> dashpots, tangential;
     ExactSum shearDashpot, shearTangential;
 
-    /// @param part shift times branch along each axis over the squared distance; @param share of the
-    /// controlled axes in it; @param squared m^2, the distance; @param inFlow n_f^2; @param across m^2,
-    /// squared branch along the gradient
+    /// @param part shift times branch along each axis over the squared distance; @param squared m^2, the
+    /// distance; @param inFlow n_f^2; @param across m^2, squared branch along the gradient
     void add(const ContactStiffness& s, const std::array<double, 3>& part, const HomogeneousStrain& strain,
              double squared, double inFlow, double across) {
         double amounts = 0;
@@ -218,18 +218,18 @@ void controlStress(HomogeneousStrain& strain, LeesEdwards& shear, const Diagonal
         AxisStrain& axis = strain.axes[a];
         if (!axis.isControlled) continue;
         axis.oneWay += interval * axis.servo.speed;
-        axis.servo.look(stress.stress[a], axis.stress, stress.stiffness[a], interval, axis.time,
-                        servoDriftTimes * axis.time, axis.largestRate,
-                        stress.dashpot[a] + 0.5 * interval * stress.tangential[a]);
+        lookBesideDashpots(axis.servo, stress.stress[a], axis.stress, stress.stiffness[a],
+                           stress.dashpot[a] + 0.5 * interval * stress.tangential[a], interval, axis.time,
+                           servoDriftTimes * axis.time, axis.largestRate);
         axis.rate = axis.servo.speed;
         if (axis.oneWay * axis.rate <= 0) axis.oneWay = 0;
     }
     if (shear.isControlled) {
         shear.atLargest += interval * std::abs(shear.servo.speed);
         // A larger rate makes the stress larger: both with the sign of a value that a speed makes smaller.
-        shear.servo.look(-stress.shear, -shear.stress, stress.shearStiffness, interval, shear.time,
-                         servoDriftTimes * shear.time, shear.largestRate,
-                         stress.shearDashpot + 0.5 * interval * stress.shearTangential);
+        lookBesideDashpots(shear.servo, -stress.shear, -shear.stress, stress.shearStiffness,
+                           stress.shearDashpot + 0.5 * interval * stress.shearTangential, interval,
+                           shear.time, servoDriftTimes * shear.time, shear.largestRate);
         shear.rate = shear.servo.speed;
         if (std::abs(shear.rate) < shear.largestRate) shear.atLargest = 0;
     }

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "Kernel/Motion/StabilityLimit.h"
-#include "Kernel/Particles/Servo.h"
+#include "Kernel/Particles/DampedServo.h"
 
 namespace pendular::servoLoopTest {
 namespace {
@@ -33,8 +33,9 @@ struct Loop {
         servo.arrived = servo.hasLast = true;
         servo.speed = s[4 * n + 2], servo.drift = s[4 * n + 3], servo.last = s[4 * n + 4];
         // Nothing is cut: the servo is linear in these.
-        servo.look(s[4 * n], 0, 1, stepsOfALook * step, time, time * std::max(16, 4 * layers), 1e300,
-                   known * dashpot() + std::max(0.0, step - time));  // as PlaneMotion has it
+        lookBesideDashpots(servo, s[4 * n], 0, 1,
+                           known * dashpot() + std::max(0.0, step - time),  // as PlaneMotion has it
+                           stepsOfALook * step, time, time * std::max(16, 4 * layers), 1e300);
         s.tail(3) << servo.speed, servo.drift, servo.last;
         for (int k = 0; k < stepsOfALook; ++k) s = moved(s);
         return s;
@@ -99,7 +100,7 @@ TEST(ServoLoop, ringsEverMoreWhereDashpotsAreNotKnown) {
     EXPECT_GT((Loop{.ratio = 1, .step = 0.02, .time = 2, .known = 0}.spectralRadius()), 1);
 }
 
-/// With the dashpots taken at the new speed it is stable for all times of a servo of at least a step, with
+/// With the dashpots taken at the new speed it is stable for all times of a servo that a scene accepts, with
 /// all dashpots and steps that a scene accepts for its grains, and where only 60 % or twice of them are
 /// known.
 TEST(ServoLoop, isStableForAllTimesWhereDashpotsAreKnown) {
@@ -140,7 +141,7 @@ TEST(ServoLoop, hasTheRootsOfItsClosedForm) {
             const double factor = 1 - interval / (time + dashpot / stiffness);
             for (int n = 0; n < 60; ++n) {
                 // A drift is looked for so slowly that none is found.
-                servo.look(value, target, stiffness, interval, time, 1e12, 1e9, dashpot);
+                lookBesideDashpots(servo, value, target, stiffness, dashpot, interval, time, 1e12, 1e9);
                 y -= interval * servo.speed;
                 value = stiffness * y - dashpot * servo.speed;
                 const double off = stiffness * y - target, expected = -0.1 * target * std::pow(factor, n + 1);
@@ -156,7 +157,8 @@ TEST(ServoLoop, leavesNoSteadyErrorBesideDashpots) {
         Servo servo;
         double y = target / stiffness, value = target;
         for (int n = 0; n < 200000; ++n) {
-            servo.look(value, target, stiffness, interval, time, servoDriftTimes * time, 1e9, dashpot);
+            lookBesideDashpots(servo, value, target, stiffness, dashpot, interval, time,
+                               servoDriftTimes * time, 1e9);
             y -= interval * (servo.speed - drift);
             value = stiffness * y - dashpot * (servo.speed - drift);
         }
