@@ -198,15 +198,17 @@ private:
 /// The kernel computes whole blocks; contacts that nothing has changed get back what they had.
 void ContactSystem::computeAmong(const Grains& grains, const std::vector<bool>& isChanged, double step,
                                  ContactTiming timing) {
-    timing.springsAhead = timing.timesTouches && !timing.springsInStep ? 0.5 * step : 0;
+    const double ahead = timing.timesTouches && !timing.springsInStep ? 0.5 * step : 0;
     timing.comingStep = step;
     const auto computeBlock = [&](std::size_t bucket, std::size_t block) {
         const KeptBlock kept(contacts, block);
         OverlapWatch overlaps = overlapWatch.part();
         CapillaryWatch capillaryNumbers;
-        if (!computeBlocks(grains, 0, timing, bucket, block, block + 1, {&overlaps, &capillaryNumbers, {}})) {
+        if (!computeBlocks(grains, 0, timing, bucket, block, block + 1,
+                           {&overlaps, &capillaryNumbers, {}, ahead})) {
             wake(block, contacts.buckets[bucket], grains);
-            computeBlocks(grains, 0, timing, bucket, block, block + 1, {&overlaps, &capillaryNumbers, {}});
+            computeBlocks(grains, 0, timing, bucket, block, block + 1,
+                          {&overlaps, &capillaryNumbers, {}, ahead});
         }
         for (std::size_t lane = 0; lane < Pack::lanes; ++lane) {
             const auto contact = static_cast<std::uint32_t>(block * Pack::lanes + lane);

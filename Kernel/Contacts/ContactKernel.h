@@ -72,6 +72,7 @@ public:
     /// The overlaps and capillary numbers of the contacts that this kernel has computed.
     OverlapWatch overlaps;
     CapillaryWatch capillaryNumbers;
+    double springsAhead = 0;  // s, as of ContactTask
 
     /// @return false if the block needs memory first; it is marked then
     /// @param geometryOf (block) its geometry, which is made in here: what would come from outside, or be
@@ -352,8 +353,8 @@ private:
                         .timeBefore = timeStep * select(begins, normal.timing.before, Pack(before)),
                         .timeAfter = Pack(timeStep * (1 - before)),
                         .response = response};
-        if (timing.springsAhead > 0) [[unlikely]] {
-            const Pack ahead = timing.springsAhead;
+        if (springsAhead > 0) [[unlikely]] {
+            const Pack ahead = springsAhead;
             slip.timeBefore = select(maskFromBits(store.states[number].touching), -ahead, Pack(0));
             slip.timeAfter = ahead;
         }

@@ -61,6 +61,9 @@ struct ContactTask {
     OverlapWatch* overlaps;
     CapillaryWatch* capillaryNumbers;
     OwnTotals totals;
+    /// s, of a step of no length, between two steps: tangential springs that are kept ahead of their contacts
+    /// are so by this time, and are left so; those of touches that have not been seen before begin now.
+    double springsAhead = 0;
 };
 
 /// A number of a law, with its name and unit.

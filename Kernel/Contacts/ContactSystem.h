@@ -436,6 +436,7 @@ private:
         OverlapWatch* overlaps;
         CapillaryWatch* capillaryNumbers;
         OwnTotals totals;
+        double springsAhead = 0;  // s, as of ContactTask
     };
     /// Of a bucket; false if one needs memory first.
     bool computeBlocks(const Grains& grains, double step, ContactTiming timing, std::size_t bucket,
@@ -493,6 +494,12 @@ private:
     std::size_t rebuilds = 0;
     WallPointSearch wallPoints;
     WallPatches wallPatches;
+    OverlapWatch overlapWatch;
+    ContactEvents contactEvents;
+    ContactLiquid liquid;
+    CapillaryWatch capillaryWatch;
+    std::vector<OverlapWatch> watches;  // of each thread
+    std::vector<CapillaryWatch> capillaryWatches;
     HeldContacts heldContacts = HeldContacts::WhereAsked;
     bool partsNeedHeld = false, heldIsNew = false;
     ListedOfHeld ofHeld;                         // in the present list
@@ -501,12 +508,6 @@ private:
     // Since computeChanged() was called last:
     std::vector<bool> changedPairs;  // of species, as of lawValues
     std::vector<bool> changedWalls;  // that have another species
-    OverlapWatch overlapWatch;
-    ContactEvents contactEvents;
-    ContactLiquid liquid;
-    CapillaryWatch capillaryWatch;
-    std::vector<OverlapWatch> watches;  // of each thread
-    std::vector<CapillaryWatch> capillaryWatches;
 };
 
 }  // namespace pendular

@@ -14,9 +14,6 @@ struct ContactTiming {
     /// the middle of the time that they move for, which is explicit. This is for grains that carry the
     /// velocity v + h a.
     bool springsInStep = false;
-    /// s, of a step of no length, between two steps: tangential springs that are kept ahead are so by this
-    /// time, and are left so; those of touches that have not been seen before begin at it.
-    double springsAhead = 0;
     /// The length (s) of the step that comes; 0: as long as the last one.
     double comingStep = 0;
 

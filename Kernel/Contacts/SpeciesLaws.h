@@ -230,6 +230,7 @@ protected:
         ContactKernel<S> kernel(prepared[task.bucket], task.step, task.timing,
                                 task.overlaps->part(overlapLimit.largest), task.store, task.acceleration,
                                 task.totals, task.withSamples);
+        kernel.springsAhead = task.springsAhead;
         bool all = true;
         for (std::size_t b = task.begin, end = task.end; b < end; ++b)
             if (slots[b] != ContactStore::asleep || unlisted > gaps[b]) {

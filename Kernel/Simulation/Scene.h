@@ -183,6 +183,9 @@ public:
     /// next step on.
     void setHeldContacts(HeldContacts which);
     [[nodiscard]] HeldContacts getHeldContacts() const;
+    /// Warns, once, if two held bodies overlap whose contact is not listed: for functions that show the
+    /// contacts of the scene, as interactions() does.
+    void warnOfUnlistedContacts() const;
     /// Keeps account of the energy; costs time, and is off by default.
     void keepEnergyLedger(bool keep = true);
     /// Something of the driver's own that acts in each step, behind all parts of the kernel (StepPart.h says
@@ -328,8 +331,6 @@ private:
     void addOwnPart(std::unique_ptr<StepPart> part);
     /// Of all ranks.
     [[nodiscard]] GrainSums sumAllGrains() const;
-    /// Warns where contacts are asked for and bodies that are held have none.
-    void warnOfUnlistedContacts() const;
     /// A function that refuses a change which does not go together with moving images; empty at set-up.
     std::function<void()> refusalInRun();
 

@@ -15,6 +15,7 @@ py::dict contacts(const PythonScene& scene) {
     {
         const PythonScene::WithoutPython others(scene);
         const Scene& of = scene.scene();
+        of.warnOfUnlistedContacts();
         fields = contactFields(of.contacts(), of.particleHandler.store(), of.laws(), true,
                                of.getNumberOfThreads());
     }
