@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
@@ -162,7 +164,8 @@ void Run::step(std::size_t count) {
         throw InputError(
             "Simulation: step() writes no outputs, and this run goes on in parts; call runSteps() instead.");
     for (std::size_t k = 1; k <= count; ++k) {
-        stepsOfCall = count - k + 1;
+        stepsOfCall = static_cast<std::uint32_t>(
+            std::min<std::size_t>(count - k + 1, std::numeric_limits<std::uint32_t>::max()));
         stepOnce(k < count);
     }
     stepsOfCall = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <functional>
@@ -182,7 +183,7 @@ protected:
     /// What all ranks must have decided alike after a step.
     void visitDecisions(StateArchive& archive) const;
     /// Steps that this call of step() has still to do; 0 elsewhere.
-    [[nodiscard]] std::size_t stepsToCome() const { return stepsOfCall; }
+    [[nodiscard]] std::uint32_t stepsToCome() const { return stepsOfCall; }
     /// s, what getTime() will be: not always getTime() + getTimeStep() to the last bit.
     [[nodiscard]] double timeAfterNextStep() const {
         return timeAfter(steps + 1, stepsBefore, timeBefore, timeStep);
@@ -285,9 +286,9 @@ private:
     std::size_t stepsBefore = 0;      // those with another time step
     double timeBefore = 0;            // s, when these had been done
     std::optional<double> endOfStep;  // s, within a step whose grains have moved
-    std::size_t stepsOfCall = 0;      // as stepsToCome() says
     bool begun = false;
-    bool stepChanged = false;  // since the run began
+    bool stepChanged = false;       // since the run began
+    std::uint32_t stepsOfCall = 0;  // as stepsToCome() says
     RestartSchedule restarts;
     std::vector<std::filesystem::path> replaced;  // as replaceAtStart() says
     std::optional<std::size_t> restartFileSteps;  // in restartFile(), if it is of this run

@@ -48,7 +48,7 @@ public:
 
     StateArchive(Hdf5File& stateFile, Direction way) : file(&stateFile), direction(way) {}
     /// Writes into a hash instead of a file.
-    explicit StateArchive(StateDigest& into) : digest(&into), direction(Direction::Write) {}
+    explicit StateArchive(StateDigest& into) : direction(Direction::Write), digest(&into) {}
 
     [[nodiscard]] bool isReading() const { return direction == Direction::Read; }
     [[nodiscard]] bool isWriting() const { return direction == Direction::Write; }
@@ -194,9 +194,9 @@ private:
     static std::string shown(std::integral auto number) { return std::to_string(number); }
 
     Hdf5File* file = nullptr;
-    StateDigest* digest = nullptr;  // in its place
     Direction direction;
     std::string prefix;
+    StateDigest* digest = nullptr;     // in place of a file
     std::string_view unitOfNext = {};  // of what same() writes, for the digest
 };
 

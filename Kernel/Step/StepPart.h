@@ -79,11 +79,6 @@ public:
     /// before it.
     virtual void takeBack(StepContext&) {}
 
-    /// Lists all that a driver sets of the part, each by archive.same(name, value, unit): a run that is
-    /// resumed with another value ends with a sentence that names it, and ranks compare the values as well.
-    /// What the run itself may change is compared unless it has. A part without settings overrides this by an
-    /// empty function.
-    virtual void compareSetUp(StateArchive&, StepContext&) = 0;
     /// Visits what check() and begin() need of a restart file.
     virtual void visitSetting(StateArchive&, StepContext&) {}
     /// Visits all else that the part remembers.
@@ -93,6 +88,12 @@ public:
     /// Whether the part of a driver's own acts alike where ranks share the scene: each has its own grains and
     /// ghosts of others (Kernel/Ranks/README.md). Else it is refused there.
     [[nodiscard]] virtual bool actsOnRanks() const { return false; }
+
+    /// Lists all that a driver sets of the part, each by archive.same(name, value, unit): a run that is
+    /// resumed with another value ends with a sentence that names it, and ranks compare the values as well.
+    /// What the run itself may change is compared unless it has. A part without settings overrides this by an
+    /// empty function.
+    virtual void compareSetUp(StateArchive&, StepContext&) = 0;
 };
 
 }  // namespace pendular

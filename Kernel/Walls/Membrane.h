@@ -156,19 +156,19 @@ private:
     MembraneMaterial material;
     double areaDensity = 0;  // kg/m^2
     std::vector<bool> held;
-    std::vector<bool> heldAsRim;            // by holdRim() alone
-    Vector<double> rimVelocity{0, 0, 0};    // m/s
-    double pressure = 0;                    // Pa
-    std::vector<std::uint8_t> heldAtSetUp;  // by hold(); empty: none
-    MembraneState::Column velocityAtSetUp;  // m/s, of these
-    double pressureAtSetUp = 0;             // Pa
-    double damping = 0;                     // 1/s
+    std::vector<bool> heldAsRim;          // by holdRim() alone
+    Vector<double> rimVelocity{0, 0, 0};  // m/s
+    double pressure = 0;                  // Pa
+    double damping = 0;                   // 1/s
     MembraneState now;
     MembraneSurface shape;
     double shifted = 0;    // m, by goOn()
     double unlooked = 0;   // m, that vertices may have come nearer to each other since findCrossing()
     double began = unset;  // s, of the run; not a number before it
     bool forcesAreOld = true;
+    std::vector<std::uint8_t> heldAtSetUp;  // by hold(); empty: none
+    MembraneState::Column velocityAtSetUp;  // m/s, of these
+    double pressureAtSetUp = 0;             // Pa
 };
 
 }  // namespace pendular

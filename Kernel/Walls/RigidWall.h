@@ -150,10 +150,10 @@ private:
     std::function<Eigen::Isometry3d(double)> motion;
     bool followsFunction = false;             // and not `steady`
     Vector<double> surfaceVelocity{0, 0, 0};  // m/s, in the body's frame
-    RigidVelocity steadyAtSetUp;
-    Vector<double> surfaceVelocityAtSetUp{0, 0, 0};
     Pose pose;
     RigidVelocity velocity;
+    RigidVelocity steadyAtSetUp;
+    Vector<double> surfaceVelocityAtSetUp{0, 0, 0};
 };
 
 /// A unit vector along the given one. Throws InputError unless it is finite and not zero.
