@@ -31,7 +31,8 @@ Scene::Scene() : inside(std::make_unique<Inside>(*this)) {
         const StepTimes::Within sum(stepTimer(), StepTimes::Part::Sum);
         GrainPart::finishLeftStep(inside->context);
     });
-    ParticleHandler::Inside::callToCountAll(particleHandler, [this] { return inside->sharing->countOfAll(); });
+    ParticleHandler::Inside::callToCountAll(particleHandler,
+                                            [this] { return inside->sharing->countOfAll(); });
     wallHandler.callBeforeRemoval([this](int wall) {
         inside->bookEnergyOfEnded(inside->contacts.endContactsAtWall(particleHandler.store(), wall));
     });

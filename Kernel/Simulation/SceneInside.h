@@ -142,11 +142,11 @@ public:
     bool gravityChanged = false;                   // since the run began
     bool heldContactsChanged = false;              // setHeldContacts(), since the run began
     UnlistedContacts unlisted;
-    bool lawsAreNew = false;                       // prepared ones are to be made again
-    bool noRoomWasTold = false;                    // of insert() in the run
-    std::vector<ContactEvent> eventsOfAll;         // of the last step, where ranks have their own grains only
-    std::optional<GrainSharing> sharing;           // none: the scene has all grains
-    std::size_t listsAgreed = 0;                   // of contacts, at which ranks have compared what they have
+    bool lawsAreNew = false;                // prepared ones are to be made again
+    bool noRoomWasTold = false;             // of insert() in the run
+    std::vector<ContactEvent> eventsOfAll;  // of the last step, where ranks have their own grains only
+    std::optional<GrainSharing> sharing;    // none: the scene has all grains
+    std::size_t listsAgreed = 0;            // of contacts, at which ranks have compared what they have
 
 private:
     [[nodiscard]] ContactLaws& laws() const { return *context.laws; }
