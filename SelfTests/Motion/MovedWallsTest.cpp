@@ -97,6 +97,9 @@ TEST(MovedWalls, aPistonIsPartOfTheBoundOfTheContacts) {
                 EXPECT_GE(bound, exact / (count * layers == 1 ? 1.071 : 1.3))
                     << mass << " " << count << " " << layers;
                 EXPECT_LE(scene.stabilityLimit(), exact) << mass << " " << count << " " << layers;
+                if (mass > 0.1) continue;
+                EXPECT_EQ(scene.stabilityAdvice().wall, 1);
+                EXPECT_TRUE(support::contains(scene.stabilityAdvice().text(), "wall 1, which forces move"));
             }
 }
 
