@@ -122,10 +122,13 @@ void ContactSystem::noteChangedLaws() {
                 now[a * count + b].push_back(field.value);
         }
     const auto areSame = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+    std::size_t before = 0;  // species
+    while (before * before < lawValues.size()) ++before;
     changedPairs.assign(now.size(), true);
-    if (now.size() == lawValues.size())
-        for (std::size_t k = 0; k < now.size(); ++k)
-            changedPairs[k] = !std::ranges::equal(now[k], lawValues[k], areSame);
+    for (std::size_t a = 0; a < std::min(before, count); ++a)
+        for (std::size_t b = 0; b < std::min(before, count); ++b)
+            changedPairs[a * count + b] =
+                !std::ranges::equal(now[a * count + b], lawValues[a * before + b], areSame);
     lawValues = std::move(now);
 }
 
@@ -287,26 +290,33 @@ ChangedContacts ContactSystem::computeChanged(Grains& grains, const ChangedBodie
 // Contacts of bodies that are held
 // --------------------------------------------------------------------------------------------
 
+/// Whether something needs the forces of held grains on a wall.
+static bool needsHeld(const Wall& wall) {
+    if (wall.isRemoved()) return false;
+    if (wall.keepsForces() || wall.membrane() != nullptr) return true;
+    const auto* const worn = dynamic_cast<const WornWall*>(&wall);
+    return worn != nullptr && worn->keepsWear();
+}
+
 ListedOfHeld ContactSystem::askedOfHeld() const {
     ListedOfHeld asked;
     if (heldContacts == HeldContacts::None) return asked;
     asked.pairs = heldContacts == HeldContacts::All || partsNeedHeld;
-    const std::vector<WornWall*> worn = wornWalls(*walls);
     asked.walls.resize(walls->getSize());
     for (std::size_t w = 0; w < walls->getSize(); ++w)
         if (const Wall& wall = walls->getObject(w); !wall.isRemoved())
-            asked.walls[w] =
-                asked.pairs || wall.keepsForces() || wall.membrane() != nullptr || worn[w] != nullptr;
+            asked.walls[w] = asked.pairs || needsHeld(wall);
     return asked;
 }
 
 static bool isHeld(const TranslationRecord& grain) { return grain.inverseMass == 0 && grain.radius > 0; }
 
 bool ContactSystem::needsOtherHeld(const Grains& grains) {
-    const bool isAsked = heldContacts != HeldContacts::None;
-    bool others = heldIsNew || (isAsked && partsNeedHeld && !ofHeld.pairs);
-    for (std::size_t w = 0; !others && isAsked && w < walls->getSize(); ++w)
-        others = walls->getObject(w).keepsForces() && !ofHeld.atWall(w);
+    // All or none does not change by itself, and walls that are added or removed ask for a list anyway.
+    const bool followsWalls = heldContacts == HeldContacts::WhereAsked && !partsNeedHeld;
+    bool others = heldIsNew;
+    for (std::size_t w = 0; !others && followsWalls && w < ofHeld.walls.size() && w < walls->getSize(); ++w)
+        others = ofHeld.walls[w] != needsHeld(walls->getObject(w));
     if (!others) return false;
     if (std::ranges::any_of(grains.translation, isHeld)) return true;
     ofHeld = askedOfHeld();
