@@ -59,13 +59,12 @@ public:
         setSaveCount(stepsOf(options.interval, getTimeStep()));
     }
     void writeOutput() override {
-        double work = 0, force = 0, bridges = 0, sides = 0;
+        double work = 0, force = 0, bridges = 0;
         for (const ObservedContact& seen : interactions()) {
             if (!(seen.bridgeVolume > 0)) continue;
             work += seen.adhesiveForce * norm(seen.shift);
             force += seen.adhesiveForce;
             bridges += 1;
-            sides += seen.particle2 == ObservedContact::none ? 1 : 2;  // the floor is no grain
         }
         double solid = 0, height = 0;
         for (auto&& grain : particleHandler) {
@@ -75,10 +74,10 @@ public:
         const auto grains = static_cast<double>(particleHandler.getSize());
         const double volume = width() * width() * height / grains, diameter = 1.8 * options.radius;
         // Rumpf: a contact pulls with 2 pi R gamma cos(theta), R = d/2, z bridges of a grain.
-        const double rumpf = solid / volume * (sides / grains) * options.surfaceTension *
+        const double rumpf = solid / volume * (2 * bridges / grains) * options.surfaceTension *
                              std::cos(material->getContactAngle()) / diameter;
         const LiquidLedger ledger = liquidLedger();
-        table.row(getTime(), ledger.films, ledger.bridges, ledger.evaporated, sides / grains,
+        table.row(getTime(), ledger.films, ledger.bridges, ledger.evaporated, 2 * bridges / grains,
                   bridges > 0 ? force / bridges : 0, work / (3 * volume), rumpf, solid / volume);
     }
     void completeOutput() override {
