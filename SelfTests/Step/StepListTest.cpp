@@ -67,9 +67,9 @@ struct Scene3 : scenes::FewGrains<S> {
     [[nodiscard]] std::uint64_t hash() { return stateHash(particleHandler.store()); }
 };
 
-const std::vector<std::string> phases{"prepare",     "beforeMotion", "moveGrains", "moveSurroundings",
-                                      "afterMotion", "afterForces",  "accelerate", "finish",
-                                      "atEnd"};
+const std::vector<std::string> phases{"prepare",          "beforeMotion", "moveGrains",
+                                      "moveSurroundings", "afterMotion",  "afterForces",
+                                      "accelerate",       "finish",       "atEnd"};
 
 TEST(StepList, callsItsPartsPhaseByPhase) {
     std::vector<std::string> book, expected;
