@@ -446,9 +446,8 @@ private:
                                  .timeBefore = sliding.timeBefore,
                                  .timeAfter = sliding.timeAfter,
                                  .response = response};
-        const auto forces =
-            Friction::rotate(laws.friction, normal.contact, max(normal.repulsion, Pack(0)), g.normal, turning,
-                             history);
+        const auto forces = Friction::rotate(laws.friction, normal.contact, max(normal.repulsion, Pack(0)),
+                                             g.normal, turning, history);
         if (ledger) [[unlikely]] {
             const auto write = [&](SliderSample ContactSample::*part, const SliderForce<Pack>& f) {
                 writeSample(block, part, copyOf(f.force.x), copyOf(f.force.y), copyOf(f.force.z),

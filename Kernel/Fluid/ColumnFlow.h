@@ -12,7 +12,8 @@ namespace pendular {
 /// its momentum without the terms of its acceleration gives the pressure, -eps dp/dz = drag + eps rho g.
 class ColumnFlow : public FluidHost {
 public:
-    /// @param superficialSpeed m/s, up (along z), over the time (s): the one at the start of a step holds for it
+    /// @param superficialSpeed m/s, up (along z), over the time (s): the one at the start of a step holds for
+    /// it
     ColumnFlow(const FluidMaterial& fluid, std::function<double(double)> superficialSpeed);
 
     /// Pa: the pressure below minus that above the cells of the last step, without the weight of the fluid.

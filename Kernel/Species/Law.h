@@ -229,8 +229,8 @@ concept FrictionLaw = HasFieldTable<Law> && HasRange<Law> && std::same_as<declty
 /// A friction law that gives torques of its own to the two bodies (rolling, torsion), besides those of the
 /// tangential force:
 ///     rotationForce(p, contact, normalForce, normal, turning, history): the torque on body 1 over the
-///     effective radius (N), `turning` the motion of the effective radius times the relative spin (rad/s x m);
-///     rotate(...), with the same arguments: the two parts of it, as RotationForces.
+///     effective radius (N), `turning` the motion of the effective radius times the relative spin (rad/s x
+///     m); rotate(...), with the same arguments: the two parts of it, as RotationForces.
 template <class Law>
 concept HasContactTorque = requires {
     requires Law::hasContactTorque;

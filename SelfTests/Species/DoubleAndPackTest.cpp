@@ -162,10 +162,9 @@ TEST(DoubleAndPack, frictionLawsGiveTheSameBitsOfForceAndHistory) {
                                packed<Slip>(slips), history);
                 Vector<Pack> rotation;
                 if constexpr (HasContactTorque<Law>)
-                    rotation = Law::rotationForce(prepared, packed<Contact>(contacts),
-                                                  Pack::fromLanes(normalForces),
-                                                  packed<FrameRotation>(rotations).normal,
-                                                  packed<Slip>(slips), history);
+                    rotation = Law::rotationForce(
+                        prepared, packed<Contact>(contacts), Pack::fromLanes(normalForces),
+                        packed<FrameRotation>(rotations).normal, packed<Slip>(slips), history);
                 for (std::size_t k = 0; k < lanes; ++k) {
                     if constexpr (turns) histories[k].turn(rotations[k]);
                     auto free = histories[k];
