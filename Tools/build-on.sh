@@ -79,6 +79,7 @@ mount_what_it_needs() {
     mount -t proc proc "$root/proc"
     mount --rbind /sys "$root/sys"
     mount --rbind /dev "$root/dev"
+    inside dpkg --configure -a  # what a run before has left half installed
     if [[ -n $shared ]]; then
         mkdir -p "$root/root/shared"
         mount --bind -o ro "$shared" "$root/root/shared"
