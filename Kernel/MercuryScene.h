@@ -54,7 +54,8 @@ public:
 
     /// A driver's own forces on a grain that can move, by grain->addForce(), at the end of each step; those
     /// of contacts and gravity act beside them (there it is gravity that one overrides). getTime() is the
-    /// start of the step. This one adds nothing, so that an override may call it.
+    /// time at which they act, the end of the step, and 0 at the start of a run. This one adds nothing, so
+    /// that an override may call it.
     virtual void computeExternalForces(MercuryForcedGrain /*grain*/) { plainForcesWereAsked = true; }
     /// Without effect: walls act by themselves.
     void computeForcesDueToWalls(const GrainReference& /*grain*/) {}

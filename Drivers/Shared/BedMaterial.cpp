@@ -5,11 +5,19 @@
 #include <string_view>
 
 #include "Kernel/Particles/SphericalParticle.h"
+#include "Kernel/Species/Friction/Friction.h"
 #include "Kernel/Species/Friction/Mindlin.h"
+#include "Kernel/Species/Friction/MindlinRollingTorsion.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 
 namespace pendular::scenes {
+
+/// Of rolling or torsion, in R*: what is n^2 times as stiff and has n times the limit with the same numbers.
+static double leverOf(AnySpecies& s, std::string_view motion) {
+    const bool isWide = s.find<Friction>() || (motion == "torsion" && s.find<MindlinRollingTorsion>());
+    return isWide ? 2 : 1;
+}
 
 void BedMaterial::set(AnySpecies& s) const {
     const auto setIfThere = [&](std::string_view field, double value) {
@@ -29,9 +37,10 @@ void BedMaterial::set(AnySpecies& s) const {
     setIfThere("slidingFrictionCoefficient", friction);
     setIfThere("springFactor", 1);  // as the peers have it
     for (const std::string_view motion : {"rolling", "torsion"}) {
-        setIfThere(fmt::format("{}Stiffness", motion), rollingStiffness);
-        setIfThere(fmt::format("{}Dissipation", motion), rollingDissipation);
-        setIfThere(fmt::format("{}FrictionCoefficient", motion), rollingFriction);
+        const double n = leverOf(s, motion);
+        setIfThere(fmt::format("{}Stiffness", motion), rollingStiffness / (n * n));
+        setIfThere(fmt::format("{}Dissipation", motion), rollingDissipation / (n * n));
+        setIfThere(fmt::format("{}FrictionCoefficient", motion), rollingFriction / n);
     }
     setIfThere("liquidBridgeVolume", liquidVolume);
     setIfThere("contactAngle", contactAngle);

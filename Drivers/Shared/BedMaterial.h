@@ -25,6 +25,8 @@ struct BedMaterial {
     double liquidDensity = 998;     // kg/m^3
     double halfFillingAngle = std::numbers::pi / 5;
 
+    // Of rolling and of torsion, with the lever R*; a law that takes another one gets what is the same
+    // torque.
     double rollingFriction = 0.05,
            rollingStiffness = 1e4;     // N/m: about that of sliding at an overlap of 1 um
     double rollingDissipation = 1e-3;  // kg/s

@@ -12,7 +12,8 @@ namespace pendular {
 /// its momentum without the terms of its acceleration gives the pressure, -eps dp/dz = drag + eps rho g.
 class ColumnFlow : public FluidHost {
 public:
-    /// @param superficialSpeed m/s, up (along z), over the time
+    /// @param superficialSpeed m/s, up (along z), over the time (s): the one at the start of a step holds for
+    /// it
     ColumnFlow(const FluidMaterial& fluid, std::function<double(double)> superficialSpeed);
 
     /// Pa: the pressure below minus that above the cells of the last step, without the weight of the fluid.
@@ -21,6 +22,8 @@ public:
     void check(const FluidGrid& grid) const override;
     void findVelocity(const FluidGrid& grid, FluidFields& fields, double time) override;
     void findPressure(const FluidGrid& grid, FluidFields& fields, const Vector<double>& gravity) override;
+    /// The speed is compared at the start and now: what it will be is not known to a restart file.
+    void compareSetUp(StateArchive& archive, double now) override;
     void visitState(StateArchive& archive) override;
 
 private:

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Contacts/ContactLaws.h"
+#include "Kernel/Energy/EnergyLedger.h"
 #include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Motion/Integrator.h"
 #include "Kernel/Particles/GrainName.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/State/StateArchive.h"
@@ -35,6 +38,8 @@ std::span<const Conflict> FluidPart::ownConflicts() const {
                  "take spheres"},
         Conflict{Feature::OwnPart, Feature::Shear, "the fluid does not move with the images",
                  "leave the fluid out"},
+        Conflict{Feature::OwnPart, Feature::EarlierAccelerations, "its forces act by the steps of Verlet",
+                 "take integrators::predictedVelocityVerlet or velocityVerlet"},
         Conflict{Feature::OwnPart, Feature::Strain, "the grid of the fluid is not strained",
                  "leave the fluid out"},
         Conflict{Feature::OwnPart, Feature::Ranks, "a cell of the fluid needs the grains of all ranks",
@@ -91,7 +96,7 @@ void FluidPart::spreadGrains(StepContext& step) {
         requireInside(step, grain);
         const double share = grain.getVolume() / cellVolume;
         const Vector<double> velocity = toVector(grain.getVelocity());
-        immersed.push_back({sharesAt(cells, placeOf(step, grain))});
+        immersed.push_back({.identity = grain.getId(), .shares = sharesAt(cells, placeOf(step, grain))});
         for (const CellShare& own : immersed.back().shares) {
             now.porosity[own.cell] -= own.share * share;
             now.solidFlux[own.cell] += own.share * share * velocity;
@@ -116,15 +121,15 @@ void FluidPart::spreadDrag(StepContext& step) {
     now.drag.assign(cells.size(), {0, 0, 0});
     auto here = immersed.begin();
     for (const GrainReference grain : step.particles) {
-        auto& [shares, resistance] = *here++;
-        const Vector<double> slip = meanOf(now.velocity, shares) - toVector(grain.getVelocity());
-        resistance = resistanceOf(grain, shares, slip);
-        const Vector<double> force = resistance / cells.cellVolume() * slip;
-        for (const CellShare& own : shares) now.drag[own.cell] += own.share * force;
+        Immersed& one = *here++;
+        const Vector<double> slip = meanOf(now.velocity, one.shares) - toVector(grain.getVelocity());
+        one.resistance = resistanceOf(grain, one.shares, slip);
+        const Vector<double> force = one.resistance / cells.cellVolume() * slip;
+        for (const CellShare& own : one.shares) now.drag[own.cell] += own.share * force;
     }
 }
 
-void FluidPart::push(StepContext& step, GrainReference& grain, const Immersed& here) {
+void FluidPart::findForce(const StepContext& step, const GrainReference& grain, Immersed& here) {
     const auto& shares = here.shares;
     const Vector<double> u = meanOf(now.velocity, shares), v = toVector(grain.getVelocity());
     const bool isA = model == PressureModel::A;
@@ -133,13 +138,16 @@ void FluidPart::push(StepContext& step, GrainReference& grain, const Immersed& h
     const Vector<double> gradient = isA ? meanOf(now.pressureGradient, shares) : fluid.density * step.gravity;
     const Vector<double> pressure = -grain.getVolume() * gradient;  // N
     Vector<double> after = v;
+    here.velocity = v;
     if (!grain.isFixed()) {
-        const double mass = grain.getMass(), k = step.length * resistance / mass;
-        const Vector<double> moved = 1 / (1 + k) * (v + k * u + step.length / mass * pressure);
-        const HeldAxes held = grain.getHeldAxes();
-        after = {held.x ? v.x : moved.x, held.y ? v.y : moved.y, held.z ? v.z : moved.z};
-        grain.setVelocity(toEigen(after));
-        total.work += 0.5 * mass * dot(after - v, after + v);
+        const std::uint32_t place = step.grains().place[here.identity];
+        const double inverse = step.grains().translation[place].inverseMass,
+                     k = step.length * resistance * inverse;
+        const Vector<double> others = step.grains().acceleration[place],
+                             moved = 1 / (1 + k) * (v + k * u + step.length * (inverse * pressure + others));
+        const HeldBits held = step.grains().heldAt(place);
+        after = v + held.partAlong(moved - v);
+        here.change = inverse * held.partAlong(resistance * (u - after) + pressure);
     }
     const Vector<double> drag = step.length * resistance * (u - after);
     ofStep += drag;
@@ -150,6 +158,7 @@ void FluidPart::push(StepContext& step, GrainReference& grain, const Immersed& h
 
 void FluidPart::prepare(StepContext& step) {
     if (step.length == 0) return;
+    leaveAccelerations(step);
     spreadGrains(step);
     host->findVelocity(cells, now, step.time);
     spreadDrag(step);
@@ -157,8 +166,84 @@ void FluidPart::prepare(StepContext& step) {
     now.source.assign(cells.size(), {0, 0, 0});
     ofStep = {0, 0, 0};
     auto here = immersed.begin();
-    for (GrainReference grain : step.particles) push(step, grain, *here++);
+    for (const GrainReference grain : step.particles) findForce(step, grain, *here++);
     host->take(cells, now, step.length);
+}
+
+/// A step that has failed: the accelerations of its start are without the fluid again, where they are still
+/// those.
+void FluidPart::leaveAccelerations(StepContext& step) {
+    if (!std::exchange(isInAccelerations, false)) return;
+    ParticleStore& grains = step.grains();
+    for (const Immersed& one : immersed) {
+        const std::uint32_t place = grains.place[one.identity];
+        if (place == PlaceIndex::none) continue;
+        if (grains.acceleration[place] == one.accelerationBefore + one.change)
+            grains.acceleration[place] = one.accelerationBefore;
+    }
+}
+
+void FluidPart::beforeMotion(StepContext& step) {
+    isInVelocities = false;
+    if (step.length == 0) return;
+    ParticleStore& grains = step.grains();
+    for (Immersed& one : immersed) {
+        Vector<double>& acceleration = grains.acceleration[grains.place[one.identity]];
+        one.accelerationBefore = acceleration;
+        acceleration += one.change;
+    }
+    isInAccelerations = true;
+}
+
+/// The share of the step's end. The accelerations that the end makes of the contacts are without the fluid,
+/// which is asked anew in the next step.
+void FluidPart::accelerate(StepContext& step) {
+    if (step.length == 0) return;
+    ParticleStore& grains = step.grains();
+    const double time = step.scheme->corrector * step.length;
+    for (Immersed& one : immersed) {
+        Vector<double>& velocity = grains.translation[grains.place[one.identity]].velocity;
+        one.velocityBefore = velocity;
+        velocity += time * one.change;
+    }
+    isInVelocities = true;
+}
+
+/// The work of a step: by the mean of its velocities, which is what Verlet's steps give.
+void FluidPart::finish(StepContext& step) {
+    if (step.length == 0) return;
+    isInAccelerations = false;
+    const ParticleStore& grains = step.grains();
+    double work = 0;  // J
+    for (const Immersed& one : immersed) {
+        const TranslationRecord& grain = grains.translation[grains.place[one.identity]];
+        if (!(grain.inverseMass > 0)) continue;
+        work += step.length / grain.inverseMass * dot(one.change, 0.5 * (one.velocity + grain.velocity));
+    }
+    total.work += work;
+    if (step.ledger) step.ledger->driver += work;
+}
+
+/// The accelerations stay: by them the motion is taken back, after this.
+void FluidPart::takeBack(StepContext& step) {
+    if (!std::exchange(isInVelocities, false)) return;
+    ParticleStore& grains = step.grains();
+    for (const Immersed& one : immersed)
+        if (const std::uint32_t place = grains.place[one.identity]; place != PlaceIndex::none)
+            grains.translation[place].velocity = one.velocityBefore;
+}
+
+void FluidPart::compareSetUp(StateArchive& archive, StepContext& scene) {
+    archive.sameRecord<double>("lowest", cells.lowest, "m");
+    archive.sameRecord<double>("highest", cells.highest, "m");
+    archive.sameRecord<std::int32_t>("cells", cells.cells);
+    compareFluid(archive, fluid);
+    archive.same("law", law.name);
+    // A law of the driver's own may have changed under its name.
+    archive.sameValues("resistance", {law.resistance({0.5, 0.1, 1e-3, fluid})},
+                       "kg/s at a porosity of 0.5, 0.1 m/s and 1 mm");
+    archive.same("model", model == PressureModel::A ? "A" : "B");
+    archive.group("host", [&] { host->compareSetUp(archive, scene.time); });
 }
 
 void FluidPart::visitState(StateArchive& archive, StepContext& /*scene*/) {

@@ -33,10 +33,12 @@ struct FluidLedger {
 /// that a FluidHost fills. One set of weights (sharesAt()) spreads volumes and forces and reads fields, so
 /// that what grains get the fluid gives, to rounding.
 ///
-/// In prepare() the velocity of a grain changes, implicitly in its drag with the resistance at the start of
-/// the step:
-///     v' = (v + k u + dt F_p/m)/(1 + k),  k = dt resistance/m,
-/// which is stable for any step. The energy ledger books it as given by the driver.
+/// The force of a step is found in prepare(), implicitly in the drag with the resistance at the start of the
+/// step: that of the velocity
+///     v' = (v + k u + dt (F_p/m + a))/(1 + k),  k = dt resistance/m,
+/// which the grain will have with the acceleration a by all that acts on it besides; it is stable for any
+/// step. It acts from the start of the step to its end, as the forces of contacts do, so that contacts see
+/// the velocities of a grain that is pushed. The energy ledger books its work as given by the driver.
 class FluidPart : public StepPart {
 public:
     /// Throws InputError for a grid or a fluid that cannot be.
@@ -55,19 +57,30 @@ public:
     [[nodiscard]] std::span<const Conflict> ownConflicts() const override;
     void check(const StepContext& scene) override;
     void prepare(StepContext& step) override;
+    void beforeMotion(StepContext& step) override;
+    void accelerate(StepContext& step) override;
+    void finish(StepContext& step) override;
+    void takeBack(StepContext& step) override;
+    void compareSetUp(StateArchive& archive, StepContext& scene) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
     void addTo(SummaryRows& rows) const override;
 
 private:
     /// A grain in the fluid, at the start of the step.
     struct Immersed {
+        std::uint32_t identity;
         std::array<CellShare, 8> shares;
-        double resistance = 0;  // kg/s, of model A
+        double resistance = 0;             // kg/s, of model A
+        Vector<double> change{0, 0, 0};    // m/s^2, by the fluid in this step; none of a grain that is held
+        Vector<double> velocity{0, 0, 0};  // m/s, at the start of the step
+        // m/s^2, m/s, before the fluid has changed them
+        Vector<double> accelerationBefore{0, 0, 0}, velocityBefore{0, 0, 0};
     };
 
     void spreadGrains(StepContext& step);
     void spreadDrag(StepContext& step);
-    void push(StepContext& step, GrainReference& grain, const Immersed& here);
+    void findForce(const StepContext& step, const GrainReference& grain, Immersed& here);
+    void leaveAccelerations(StepContext& step);
     [[nodiscard]] double resistanceOf(const GrainReference& grain, const std::array<CellShare, 8>& shares,
                                       const Vector<double>& slip) const;
     void requireInside(const StepContext& step, const GrainReference& grain) const;
@@ -80,6 +93,8 @@ private:
     PressureModel model;
     FluidFields now;
     std::vector<Immersed> immersed;  // in the order of grains
+    bool isInAccelerations = false;  // the change of a step is
+    bool isInVelocities = false;     // the share of its end is
     FluidLedger total;
     Vector<double> ofStep{0, 0, 0};
     mutable std::uint64_t asked = 0, outside = 0;  // how often the law was asked, and beyond where it holds

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "Kernel/Base/InputError.h"
@@ -44,8 +45,6 @@ void MercuryForces::beforeMotion(StepContext& step) {
 
 void MercuryForces::afterForces(StepContext& step) {
     if (known == Known::None) return;
-    ParticleStore& grains = step.grains();
-    const double time = step.scheme->corrector * step.length;
     for (Pushed& one : pushed) {
         one.load = {};
         ask(MercuryForcedGrain(step.particles.getObject(one.identity), one.load));
@@ -53,6 +52,16 @@ void MercuryForces::afterForces(StepContext& step) {
             throw InputError(
                 fmt::format("particle {}: what computeExternalForces() adds is not finite: ({}, {}, {}) N.",
                             one.identity, one.load.force.x(), one.load.force.y(), one.load.force.z()));
+    }
+}
+
+/// When bonds and other parts have read the velocities: a dashpot that saw the share of this force, and not
+/// yet that of the forces which balance it, would carry some of the force for ever.
+void MercuryForces::accelerate(StepContext& step) {
+    if (known == Known::None) return;
+    ParticleStore& grains = step.grains();
+    const double time = step.scheme->corrector * step.length;
+    for (Pushed& one : pushed) {
         const std::uint32_t place = grains.place[one.identity];
         const HeldBits held = grains.heldAt(place);
         TranslationRecord& moving = grains.translation[place];
@@ -70,16 +79,26 @@ void MercuryForces::afterForces(StepContext& step) {
 void MercuryForces::finish(StepContext& step) {
     if (known == Known::None) return;
     ParticleStore& grains = step.grains();
-    for (const Pushed& one : pushed) {
-        const std::uint32_t place = grains.place[one.identity];
-        const HeldBits held = grains.heldAt(place);
-        grains.acceleration[place] +=
-            grains.translation[place].inverseMass * held.partAlong(toVector(one.load.force));
-        if (!grains.hasSpin) continue;
-        RotationRecord& turning = grains.rotation[place];
-        turning.angularAcceleration += turning.inverseInertia * held.partAbout(toVector(one.load.torque));
-    }
+    for (const Pushed& one : pushed) changeAcceleration(grains, grains.place[one.identity], one);
     if (step.ledger && step.length > 0) book(step);
+}
+
+void MercuryForces::changeAcceleration(ParticleStore& grains, std::uint32_t place, const Pushed& one) {
+    const HeldBits held = grains.heldAt(place);
+    grains.acceleration[place] +=
+        grains.translation[place].inverseMass * held.partAlong(toVector(one.load.force));
+    if (!grains.hasSpin) return;
+    RotationRecord& turning = grains.rotation[place];
+    turning.angularAcceleration += turning.inverseInertia * held.partAbout(toVector(one.load.torque));
+}
+
+void MercuryForces::addAccelerations(StepContext& step, std::span<const std::uint32_t> places) {
+    ParticleStore& grains = step.grains();
+    for (const std::uint32_t place : places) {
+        const auto found = std::ranges::lower_bound(pushed, grains.identity[place], {}, &Pushed::identity);
+        if (found != pushed.end() && found->identity == grains.identity[place])
+            changeAcceleration(grains, place, *found);
+    }
 }
 
 /// The work of a step: the means of forces and velocities at its ends, which is what Verlet's steps give.

@@ -26,7 +26,8 @@ private:
 };
 
 /// The forces that a driver gives each grain in computeExternalForces(), beside those of contacts and
-/// gravity, at the end of each step. They count as given by the driver in the energy ledger.
+/// gravity, at the end of each step, whose time getTime() is then. They count as given by the driver in the
+/// energy ledger.
 class MercuryForces : public StepPart {
 public:
     using Ask = std::function<void(MercuryForcedGrain)>;
@@ -41,10 +42,14 @@ public:
         return known == Known::None ? Features{} : Features{Feature::OwnPart};
     }
     [[nodiscard]] std::span<const Conflict> ownConflicts() const override;
+    void addAccelerations(StepContext& step, std::span<const std::uint32_t> places) override;
     void beforeMotion(StepContext& step) override;
     void afterForces(StepContext& step) override;
+    void accelerate(StepContext& step) override;
     void finish(StepContext& step) override;
     void takeBack(StepContext& step) override;
+    /// A restart file cannot keep the function of the driver.
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}
     void visitState(StateArchive& archive, StepContext& scene) override;
 
 private:
@@ -56,6 +61,7 @@ private:
         Vector<double> velocityBefore{0, 0, 0}, spinBefore{0, 0, 0};  // before the part of the new force
     };
     void book(StepContext& step) const;
+    static void changeAcceleration(ParticleStore& grains, std::uint32_t place, const Pushed& one);
 
     Ask ask;
     std::vector<Pushed> pushed;

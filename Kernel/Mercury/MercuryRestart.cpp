@@ -99,10 +99,25 @@ void readHead(const Lines& lines, MercuryRestart& state) {
             state.saveCount = static_cast<std::size_t>(lines.number(*at));
 }
 
+/// Rolling and torsion have one coefficient here: a static one must be the dynamic one, and is no field.
+bool isDynamicAgain(const Lines& lines, std::size_t word) {
+    const std::string_view name = lines.all()[word];
+    for (const std::string_view dynamic : {"rollingFrictionCoefficient", "torsionFrictionCoefficient"}) {
+        if (name != fmt::format("{}Static", dynamic)) continue;
+        const auto value = lines.behind(dynamic);
+        if (!value || lines.number(*value) != lines.number(word + 1))
+            lines.refuse(fmt::format("{} is not {}, and rolling and torsion have one coefficient here", name,
+                                     dynamic));
+        return true;
+    }
+    return false;
+}
+
 MercuryRestart::Species speciesOf(const Lines& lines) {
     MercuryRestart::Species species{std::string(lines.all()[0]), {}};
     for (std::size_t k = 1; k + 1 < lines.all().size(); k += 2)
-        if (lines.all()[k] != "id") species.fields.emplace_back(fieldOf(lines.all()[k]), lines.number(k + 1));
+        if (lines.all()[k] != "id" && !isDynamicAgain(lines, k))
+            species.fields.emplace_back(fieldOf(lines.all()[k]), lines.number(k + 1));
     return species;
 }
 

@@ -15,6 +15,7 @@
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Motion/TimeIntegration.h"
 #include "Kernel/State/StateArchive.h"
+#include "Kernel/Step/StepList.h"
 #include "Kernel/Step/SummaryRows.h"
 
 namespace pendular {
@@ -221,6 +222,7 @@ void BondPart::renewForces(StepContext& step) {
             continue;
         TimeIntegration::renewAccelerations(grains, step.contacts.store(), step.gravity, {&one.place, 1});
         changeAcceleration(grains, one.place, one.force, one.torque);
+        step.parts->addAccelerations(step, {&one.place, 1}, this);
     }
     const std::vector<bool> there = areThere(step);
     std::erase_if(bonds, [&](const Bond& bond) {
@@ -239,6 +241,13 @@ void BondPart::renewForces(StepContext& step) {
         numbers.emplace(one.identity, static_cast<std::uint32_t>(numbers.size()));
     for (Bond& bond : bonds) bond.at1 = numbers.at(bond.first), bond.at2 = numbers.at(bond.second);
     atBegin = bonds;  // those of grains that have gone do nothing more
+}
+
+void BondPart::addAccelerations(StepContext& step, std::span<const std::uint32_t> places) {
+    ParticleStore& grains = step.grains();
+    for (const std::uint32_t place : places)
+        if (const auto found = numbers.find(grains.identity[place]); found != numbers.end())
+            changeAcceleration(grains, place, joined[found->second].force, joined[found->second].torque);
 }
 
 /// By a force (N) and a torque (N m).
@@ -411,7 +420,7 @@ void BondPart::computeLoads(StepContext& step) {
 }
 
 /// Adds a share (s) of the accelerations by bonds to velocities.
-void BondPart::accelerate(StepContext& step, double time) {
+void BondPart::push(StepContext& step, double time) {
     ParticleStore& grains = step.grains();
     for (const Joined& one : joined) {
         if (one.place == PlaceIndex::none) continue;
@@ -423,16 +432,17 @@ void BondPart::accelerate(StepContext& step, double time) {
     }
 }
 
+void BondPart::afterForces(StepContext& step) { computeLoads(step); }
+
 /// The velocities get the part of the new forces that the end of the step gives them: Integrator.h. The
 /// accelerations get theirs when the end has made them of the contacts' forces.
-void BondPart::afterForces(StepContext& step) {
-    computeLoads(step);
+void BondPart::accelerate(StepContext& step) {
     for (Joined& one : joined) {
         if (one.place == PlaceIndex::none) continue;
         one.velocityBefore = step.grains().translation[one.place].velocity;
         one.spinBefore = step.grains().rotation[one.place].spin;
     }
-    accelerate(step, step.scheme->corrector * step.length);
+    push(step, step.scheme->corrector * step.length);
     isAccelerated = true;
 }
 
@@ -536,7 +546,7 @@ static std::string text(const BondStiffness& k) {
 }
 
 /// Materials are those with which the run began; stiffnesses are compared for each bond, by visitState().
-void BondPart::visitMaterials(StateArchive& archive) const {
+void BondPart::compareSetUp(StateArchive& archive, StepContext& /*scene*/) {
     archive.same("materials", static_cast<std::uint64_t>(materials.size()));
     for (std::size_t k = 0; k < materials.size(); ++k)
         archive.group(fmt::format("material{}", k), [&] {
@@ -591,7 +601,6 @@ void BondPart::visitState(StateArchive& archive, StepContext& /*scene*/) {
         motions.push_back(
             {one.orientation, one.force, one.torque, one.acceleration, one.angularAcceleration});
     }
-    visitMaterials(archive);
     visitWaiting(archive);
     archive.column<std::uint32_t>("pairs", pairs);
     archive.column<double>("numbers", ofBonds);

@@ -61,12 +61,15 @@ public:
     [[nodiscard]] bool actsOnRanks() const override { return true; }
     [[nodiscard]] std::span<const Conflict> ownConflicts() const override;
     void check(const StepContext& scene) override;
+    void addAccelerations(StepContext& step, std::span<const std::uint32_t> places) override;
     void prepare(StepContext& step) override;
     void beforeMotion(StepContext& step) override;
     void afterForces(StepContext& step) override;
+    void accelerate(StepContext& step) override;
     void finish(StepContext& step) override;
     void takeOver(StepContext& /*scene*/, const SceneChanges& /*changes*/) override { longest.reset(); }
     void takeBack(StepContext& step) override;
+    void compareSetUp(StateArchive& archive, StepContext& scene) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
     void addTo(SummaryRows& rows) const override;
 
@@ -119,14 +122,13 @@ private:
     void joinNew(StepContext& step);
     void renewForces(StepContext& step);
     void addWork(const StepContext& step, const Bond& bond, Work& work) const;
-    void visitMaterials(StateArchive& archive) const;
     void visitWaiting(StateArchive& archive);
     static void changeAcceleration(ParticleStore& grains, std::uint32_t place, const Vector<double>& force,
                                    const Vector<double>& torque);
     void refuseStep(const StepContext& step);
     void turnGrains(StepContext& step);
     void computeLoads(StepContext& step);
-    void accelerate(StepContext& step, double time);
+    void push(StepContext& step, double time);
     void breakBonds(StepContext& step);
     [[nodiscard]] double power(const StepContext& step, const Bond& bond, const BondLoad& load) const;
     void account(StepContext& step) const;

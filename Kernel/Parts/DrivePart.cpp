@@ -83,7 +83,7 @@ void DrivePart::moveSurroundings(StepContext& step) {
     bodies.begin(step.walls, stepOf(step));
 }
 
-void DrivePart::afterForces(StepContext& step) {
+void DrivePart::accelerate(StepContext& step) {
     if (!(step.length > 0)) return;
     PlaneMotion::finish(step.walls, stepOf(step));
     WallBodyMotion::finish(step.walls, stepOf(step));

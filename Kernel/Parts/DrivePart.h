@@ -17,7 +17,9 @@ public:
     /// More grains may touch a piston than its mass was checked for.
     void prepare(StepContext& step) override;
     void moveSurroundings(StepContext& step) override;
-    void afterForces(StepContext& step) override;
+    void accelerate(StepContext& step) override;
+    /// Walls compare what drives them.
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}
     void takeBack(StepContext& step) override;
     void addTo(SummaryRows& rows) const override;
 

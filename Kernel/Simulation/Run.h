@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <functional>
@@ -84,7 +85,11 @@ public:
     void measureStepTimes(bool measure = true) { times.measure(measure); }
 
     [[nodiscard]] const std::string& getName() const { return name; }
-    [[nodiscard]] double getTime() const { return timeAfter(steps, stepsBefore, timeBefore, timeStep); }
+    /// s. What is called within a step, when grains and walls have moved (forces of the driver, conditions of
+    /// outlets), gets the time of its end, at which its answer acts; a hook between two steps the same.
+    [[nodiscard]] double getTime() const {
+        return endOfStep ? *endOfStep : timeAfter(steps, stepsBefore, timeBefore, timeStep);
+    }
     [[nodiscard]] double getTimeStep() const { return timeStep; }
     [[nodiscard]] double getTimeMax() const { return timeMax; }
     [[nodiscard]] std::size_t getNumberOfTimeSteps() const { return steps; }
@@ -175,10 +180,27 @@ protected:
     /// remember.
     void visitSteps(StateArchive& archive);
     void visitOutputs(StateArchive& archive);
+    /// What all ranks must have decided alike after a step.
+    void visitDecisions(StateArchive& archive) const;
+    /// Steps that this call of step() has still to do; 0 elsewhere.
+    [[nodiscard]] std::uint32_t stepsToCome() const { return stepsOfCall; }
     /// s, what getTime() will be: not always getTime() + getTimeStep() to the last bit.
     [[nodiscard]] double timeAfterNextStep() const {
         return timeAfter(steps + 1, stepsBefore, timeBefore, timeStep);
     }
+    /// While it lives, getTime() can be the time (s) of the end of the step that is under way.
+    class WithinStep {
+    public:
+        explicit WithinStep(Run& of) : run(of) {}
+        WithinStep(const WithinStep&) = delete;
+        WithinStep& operator=(const WithinStep&) = delete;
+        ~WithinStep() { leave(); }
+        void leave() { run.endOfStep.reset(); }
+
+    private:
+        Run& run;
+    };
+    void goToEndOfStep(double time) { endOfStep = time; }
     [[nodiscard]] StepTimes& stepTimer() { return times; }
     /// Called by the destructor of the class that has all of the scene.
     void completeLeftRun() noexcept;
@@ -216,6 +238,10 @@ private:
     virtual void onFirstRank(const std::function<void()>& write);
     /// The largest of what the ranks give.
     [[nodiscard]] virtual double agreeOnLargest(double own) { return own; }
+    /// The same; throws RunError, which names the difference, where not all ranks have decided alike.
+    [[nodiscard]] virtual double agreeOnDecisions(double own) { return own; }
+    /// Throws RunError where ranks have other species, walls or parts of the step.
+    virtual void agreeOnSettings() {}
 
     /// s, after so many steps, of which the last have this length (s)
     static double timeAfter(std::size_t done, std::size_t before, double beforeTime, double length) {
@@ -257,10 +283,12 @@ private:
     std::size_t saveCount = 0;
     bool leavesGrains = false;
     std::size_t steps = 0, firstStep = 0;
-    std::size_t stepsBefore = 0;  // those with another time step
-    double timeBefore = 0;        // s, when these had been done
+    std::size_t stepsBefore = 0;      // those with another time step
+    double timeBefore = 0;            // s, when these had been done
+    std::optional<double> endOfStep;  // s, within a step whose grains have moved
     bool begun = false;
-    bool stepChanged = false;  // since the run began
+    bool stepChanged = false;       // since the run began
+    std::uint32_t stepsOfCall = 0;  // as stepsToCome() says
     RestartSchedule restarts;
     std::vector<std::filesystem::path> replaced;  // as replaceAtStart() says
     std::optional<std::size_t> restartFileSteps;  // in restartFile(), if it is of this run

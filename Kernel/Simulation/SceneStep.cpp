@@ -1,6 +1,7 @@
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
+#include "Kernel/Simulation/RankAgreement.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneInside.h"
 
@@ -19,6 +20,8 @@ StepContext& Scene::Inside::contextNow(double length) {
 }
 
 void Scene::Inside::advanceByStep(bool another) {
+    if (sharing && !isDistributed()) agreeOnAll();  // hooks or the driver may have changed all of it
+    WithinStep time(scene);
     takeOverChanges();
     try {
         parts.call(&StepPart::prepare, contextNow(stepLength()));
@@ -29,9 +32,11 @@ void Scene::Inside::advanceByStep(bool another) {
     try {
         moveAndFindForces(stepLength());
     } catch (const InputError& refusal) {
+        time.leave();
         takeBack();
         throw RunError(refusal.what());
     } catch (...) {
+        time.leave();
         takeBack();
         throw;
     }
@@ -56,6 +61,7 @@ void Scene::Inside::choosePartsLength() {
 }
 
 void Scene::Inside::advance(double length, bool another) {
+    const WithinStep time(scene);
     moveAndFindForces(length);
     finishStep(another);
 }
@@ -65,6 +71,7 @@ void Scene::Inside::moveAndFindForces(double length) {
     moveAll(step);
     findForces(step);
     parts.call(&StepPart::afterForces, step);
+    parts.call(&StepPart::accelerate, step);
 }
 
 void Scene::Inside::finishStep(bool another) {
@@ -85,13 +92,19 @@ void Scene::Inside::moveAll(StepContext& step) {
     parts.call(&StepPart::moveGrains, step);
     if (sharing) {
         // All list in the same step.
-        step.shifts.grains = sharing->exchangeStep(step.grains(), contactScheme(step).contacts.springsInStep,
-                                                   step.shifts.grains);
+        const GrainSharing::OfAll all =
+            sharing->exchangeStep(step.grains(), contactScheme(step).contacts.springsInStep,
+                                  step.shifts.grains, isDistributed() ? hashOfStep() : 0);
+        if (!all.areAlike)
+            refuseDifference(
+                differenceOfRanks(*sharing, [this](StateArchive& archive) { visitStep(archive); }));
+        step.shifts.grains = all.shift;
         step.shifts.approach = 2 * step.shifts.grains;
     }
     refuseRunaway(step.shifts.grains);
     parts.call(&StepPart::moveSurroundings, step);
     refuseRunaway(step.shifts.grains);  // with what a flow carries them
+    scene.goToEndOfStep(step.timeAfter);
     step.shifts.walls = scene.wallHandler.moveTo(step.time + step.length);
     periodicWalls.follow(scene.wallHandler, step.shifts.walls, step.time + step.length);
     step.times.enter(StepTimes::Part::Search);
@@ -107,6 +120,7 @@ void Scene::Inside::findForces(StepContext& step) {
     bringBack(step);
     if (periodicWalls.takeNewImages()) contacts.listNow(grains);
     else contacts.refresh(grains, step.shifts.grains, step.shifts.walls);
+    agreeAtList();
     if (periodicWalls.haveEnds()) bringBackAtWalls(step);
     lookForDeepOverlaps(grains, step.shifts.approach);
     step.times.enter(StepTimes::Part::Contacts);

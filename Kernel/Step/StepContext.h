@@ -15,6 +15,7 @@ class ContactSystem;
 class EnergyAccount;
 class Logger;
 class ParticleHandler;
+class StepList;
 class StepTimes;
 class WallHandler;
 struct EnergyLedger;
@@ -37,6 +38,7 @@ struct StepContext {
     Logger& logger;
     StepTimes& times;
 
+    const StepList* parts = nullptr;
     ContactLaws* laws = nullptr;
     PeriodicBox boxAtSetUp = {};         // only its lowest corner and its lengths
     const Integrator* scheme = nullptr;  // as the driver has chosen it

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string_view>
 
@@ -23,8 +24,8 @@ struct SceneChanges {
 
 /// Something that acts in the steps of a scene. A scene calls its parts in the order of their list, phase by
 /// phase, and takes a step that fails back in the opposite order. A driver adds a part of its own by
-/// addPart(). A part whose features the scene does not have sleeps: only begin(), visitSetting() and
-/// visitState() are called.
+/// addPart(). A part whose features the scene does not have sleeps: only begin(), compareSetUp(),
+/// visitSetting() and visitState() are called.
 ///
 /// Errors: a part throws InputError or RunError with one sentence; in a run both end it, with the sentence.
 class StepPart {
@@ -52,6 +53,10 @@ public:
     /// Hooks have changed something; before check().
     virtual void takeOver(StepContext&, const SceneChanges&) {}
 
+    /// Hooks have changed these grains, whose accelerations were found anew of contacts and gravity: the part
+    /// adds those of the forces that it gave in the last step.
+    virtual void addAccelerations(StepContext&, std::span<const std::uint32_t> /*places*/) {}
+
     /// Called before a step, with a whole state: it may still choose the length of the step, or change
     /// velocities (the energy ledger books that as given by the driver). It is not taken back.
     virtual void prepare(StepContext&) {}
@@ -61,12 +66,16 @@ public:
     virtual void moveSurroundings(StepContext&) {}
     /// All have moved, and `shifts` are known.
     virtual void afterMotion(StepContext&) {}
+    /// The contacts have their forces: a part finds its own, by the velocities that contacts have seen, which
+    /// it leaves as they are for the parts behind it.
     virtual void afterForces(StepContext&) {}
+    /// All parts have found their forces: velocities get the share of them that the end of the step gives.
+    virtual void accelerate(StepContext&) {}
     /// Grains have the velocities of the end of the step, which is not taken back any more.
     virtual void finish(StepContext&) {}
     /// Grains may come and go.
     virtual void atEnd(StepContext&) {}
-    /// The step has failed in one of the phases from beforeMotion() to afterForces(): the part is as it was
+    /// The step has failed in one of the phases from beforeMotion() to accelerate(): the part is as it was
     /// before it.
     virtual void takeBack(StepContext&) {}
 
@@ -79,6 +88,12 @@ public:
     /// Whether the part of a driver's own acts alike where ranks share the scene: each has its own grains and
     /// ghosts of others (Kernel/Ranks/README.md). Else it is refused there.
     [[nodiscard]] virtual bool actsOnRanks() const { return false; }
+
+    /// Lists all that a driver sets of the part, each by archive.same(name, value, unit): a run that is
+    /// resumed with another value ends with a sentence that names it, and ranks compare the values as well.
+    /// What the run itself may change is compared unless it has. A part without settings overrides this by an
+    /// empty function.
+    virtual void compareSetUp(StateArchive&, StepContext&) = 0;
 };
 
 }  // namespace pendular

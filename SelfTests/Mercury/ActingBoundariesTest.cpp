@@ -179,6 +179,23 @@ TEST(MercuryRestart, saysWhatItDoesNotTakeOver) {
     EXPECT_EQ(said(walls + grain + "radius 0.5 invMass 2\n" + contact + "force 0 0 1 slidingSpring 0 0 0\n"),
               "");
     EXPECT_EQ(said(""), "");
+    // Coefficients of rolling and torsion have static ones beside them, which are the same mostly.
+    const auto rolling = [&](const char* ofStatic) {
+        helpers::writeToFile(
+            file,
+            fmt::format("restart_version 1.0 name Fall\nSpecies 1\nLinearViscoelasticFrictionSpecies id 0 "
+                        "rho 2000 k 1000 rollingStiffness 400 rollingFrictionCoefficient 0.1 "
+                        "rollingFrictionCoefficientStatic {} torsionStiffness 400\n",
+                        ofStatic));
+        return refusal([&] {
+            const auto species = readMercuryRestart(file).species.at(0);
+            EXPECT_EQ(species.type, "LinearViscoelasticFrictionSpecies");
+            EXPECT_EQ(species.fields.size(), 5u);
+        });
+    };
+    EXPECT_EQ(rolling("0.1"), "");
+    const std::string other = rolling("0.2");
+    EXPECT_TRUE(isOneSentence(other) && contains(other, "rollingFrictionCoefficientStatic is not")) << other;
     struct Case {
         std::string rest, phrase;
         int line;

@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Parts/BondPart.h"
 #include "Mercury3D.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
@@ -256,6 +259,210 @@ TEST(MercuryForces, actWhereTheOwnFunctionIsCalledToo) {
         EXPECT_NEAR(grain.getPosition().x(), std::cos(angle), 1e-12);
         EXPECT_NEAR(grain.getPosition().y(), std::sin(angle) * 2e-3 / std::sin(2 * std::asin(1e-3)), 1e-12);
     }
+}
+
+/// A grain of 2 mg under the force F0 sin(w t) along x, from rest.
+class Driven : public DPMBase {
+public:
+    double frequency;             // rad/s
+    std::vector<double> asked{};  // s, when
+    Driven(double ofForce, double step, const Integrator& scheme) : frequency(ofForce) {
+        LinearViscoelasticSpecies species;
+        species.setDensity(2e-6 / sphereMass(1e-4, 1)), species.setStiffness(10);
+        SphericalParticle grain(speciesHandler.copyAndAddObject(species));
+        grain.setRadius(1e-4);
+        particleHandler.copyAndAddObject(grain);
+        setIntegrator(scheme);
+        setTimeStep(step);
+        setQuiet();
+    }
+    void computeExternalForces(MercuryForcedGrain p) override {
+        asked.push_back(getTime());
+        p->addForce({1e-5 * std::sin(frequency * getTime()), 0, 0});
+    }
+};
+
+// The exact answer of Verlet's steps, with the force at the time t + h of the end of each: v_n = (F0 h / 2 m)
+// cot(w h / 2) (1 - cos n w h), x_n = F0 h^2 / (4 m sin^2(w h / 2)) (n sin w h - sin n w h), which errs by a
+// share of (w h)^2 / 12; asked a step earlier the place would be x_(n-1). The digits are those of an
+// independent program.
+TEST(MercuryForces, actAtTheTimeThatTheyAreAskedFor) {
+    struct Known {
+        double frequency, x, v;  // rad/s, m, m/s
+    };
+    for (const Known& known : {Known{300, 0.00079714102051026, 0.029325932238094},
+                               {3000, 8.3107539495636e-5, 0.00049748363979204}})
+        for (const Integrator& scheme : {integrators::velocityVerlet, integrators::predictedVelocityVerlet,
+                                         integrators::springsInStep}) {
+            Driven scene(known.frequency, 1e-4, scheme);
+            scene.setTimeMax(0.05);
+            scene.solve();
+            ASSERT_EQ(scene.asked.size(), 501u);
+            for (std::size_t k = 0; k < scene.asked.size(); ++k)
+                EXPECT_EQ(scene.asked[k], static_cast<double>(k) * 1e-4);
+            const auto grain = scene.particleHandler.getObject(0);
+            EXPECT_NEAR(grain.getPosition().x() / known.x, 1, 1e-11);
+            EXPECT_NEAR(grain.getVelocity().x() / known.v, 1, 1e-11);
+        }
+}
+
+// Second order: the error of the place at 0.05 s is a quarter at half the step, up to the next order.
+TEST(MercuryForces, ofTheTimeAreOfSecondOrder) {
+    const double w = 300, t = 0.05, exact = 1e-5 / (2e-6 * w) * (t - std::sin(w * t) / w);
+    std::array<double, 3> error{};
+    for (std::size_t k = 0; k < error.size(); ++k) {
+        Driven scene(w, 1e-3 / std::pow(2, k), integrators::predictedVelocityVerlet);
+        scene.setTimeMax(t);
+        scene.solve();
+        error[k] = std::abs(scene.particleHandler.getObject(0).getPosition().x() - exact);
+    }
+    EXPECT_NEAR(error[0] / error[1], 4, 0.1);
+    EXPECT_NEAR(error[1] / error[2], 4, 0.025);
+}
+
+// A hook that sets the gravity g(t) for the step that comes: its value holds for the whole step, so that the
+// one in the middle of it is of second order, and the one at its start of first.
+TEST(MercuryForces, ofAGravityThatChangesAreOfSecondOrderByItsValueInTheMiddle) {
+    struct Shaken : Driven {
+        double share;  // of a step, from its start
+        Shaken(double step, double at) : Driven(0, step, integrators::predictedVelocityVerlet), share(at) {}
+        void actionsBeforeTimeStep() override {
+            setGravity({5 * std::sin(300 * (getTime() + share * getTimeStep())), 0, 0});
+        }
+    };
+    const double w = 300, t = 0.05, exact = 5 / w * (t - std::sin(w * t) / w);
+    const auto ratio = [&](double share) {
+        std::array<double, 2> error{};
+        for (std::size_t k = 0; k < error.size(); ++k) {
+            Shaken scene(5e-4 / std::pow(2, k), share);
+            scene.setTimeMax(t);
+            scene.solve();
+            error[k] = std::abs(scene.particleHandler.getObject(0).getPosition().x() - exact);
+        }
+        return error[0] / error[1];
+    };
+    EXPECT_NEAR(ratio(0.5), 4, 0.1);
+    EXPECT_NEAR(ratio(0), 2, 0.1);
+}
+
+// What is asked within a step knows its end, as grains are there already.
+TEST(MercuryForces, conditionsOfOutletsHaveTheTimeOfTheGrains) {
+    Driven scene(0, 1e-4, integrators::predictedVelocityVerlet);
+    scene.particleHandler.getObject(0).setVelocity({1, 0, 0});
+    Outlet outlet;
+    outlet.setPlane({1, 0, 0}, {0, 0, 0});
+    std::vector<double> differences;
+    outlet.setCondition([&](const GrainReference& grain) {
+        differences.push_back(grain.getPosition().x() - scene.getTime());
+        return false;
+    });
+    scene.outletHandler.copyAndAddObject(outlet);
+    scene.setTimeMax(1e-3);
+    scene.solve();
+    ASSERT_FALSE(differences.empty());
+    for (const double difference : differences) EXPECT_NEAR(difference, 0, 1e-16);
+}
+
+/// Two grains of 1e-5 kg and their bond along x, the first held; a constant force pulls the second, also
+/// across. The bond is critically damped: c = 2 sqrt(k m).
+class Pulled : public DPMBase {
+public:
+    static constexpr double stiffness = 1000, mass = 1e-5;  // N/m, kg
+    Vec3D force{0.01, 0.002, 0}, torque{1e-6, 0, 0};        // N, N m
+    BondPart& bonds = addPart<BondPart>();
+    Pulled(double steps, const Integrator& scheme) {
+        LinearViscoelasticSlidingFrictionSpecies species;
+        species.setDensity(mass / sphereMass(1e-3, 1)), species.setStiffness(100);
+        species.setSlidingStiffness(20), species.setSlidingFrictionCoefficient(0.5);
+        SphericalParticle grain(speciesHandler.copyAndAddObject(species));
+        grain.setRadius(1e-3);
+        particleHandler.copyAndAddObject(grain).fixParticle();
+        grain.setPosition({2.1e-3, 0, 0});
+        particleHandler.copyAndAddObject(grain);
+        BondMaterial glue;
+        glue.radius = 1e-3, glue.damping = 1;
+        glue.stiffness = [](const BondSection&, double) {
+            return BondStiffness{stiffness, stiffness, 1e-3, 1e-3};
+        };
+        bonds.join(0, 1, bonds.addMaterial(glue));
+        setIntegrator(scheme);
+        setTimeStep(steps * std::sqrt(mass / stiffness));
+        setTimeMax(0.1);  // 1000 sqrt(m/k)
+        setQuiet();
+    }
+    void computeExternalForces(MercuryForcedGrain p) override { p->addForce(force), p->addTorque(torque); }
+};
+
+// At rest the springs of the bond bear the whole force and torque, and its dashpots nothing: they see no
+// velocity that only some of the forces have changed. (They bore a share of h / sqrt(m/k) of the force.)
+TEST(MercuryForces, restOnDampedBondsAsTheyAre) {
+    for (const Integrator& scheme : {integrators::velocityVerlet, integrators::predictedVelocityVerlet})
+        for (const double steps : {0.1, 0.05, 0.025}) {
+            Pulled scene(steps, scheme);
+            scene.solve();
+            const BondPart::Bond& bond = scene.bonds.all().at(0);
+            const Vector<double> force = toVector(scene.force);
+            // What is left of the start after 1000 sqrt(m/k) is nothing; places are rounded to 1e-16 of 2 mm,
+            // and forces with them to 2e-16 N.
+            EXPECT_LT(norm(bond.damping.force), 1e-9 * norm(force)) << steps;
+            EXPECT_LT(norm(bond.damping.torque2), 1e-9 * norm(force) * 1e-3) << steps;
+            EXPECT_LT(std::abs(norm(bond.elastic.force) - norm(force)), 1e-9 * norm(force)) << steps;
+            EXPECT_LT(scene.particleHandler.getObject(1).getVelocity().norm(), 1e-12) << steps;
+        }
+}
+
+// A hook that changes a grain in each step, so that its acceleration is found anew, leaves it the whole
+// force, also where it is bonded.
+TEST(MercuryForces, stayWhereAHookChangesTheGrain) {
+    struct Growing : Driven {
+        Growing() : Driven(0, 1e-4, integrators::predictedVelocityVerlet) {}
+        void computeExternalForces(MercuryForcedGrain p) override { p->addForce({1e-5, 0, 0}); }
+        void actionsAfterTimeStep() override {
+            auto grain = particleHandler.getObject(0);
+            grain.setRadius(grain.getRadius() * (1 + 1e-12));
+        }
+    } scene;
+    scene.setTimeMax(0.05);
+    scene.solve();
+    // 5 m/s^2, but for 1500 parts in 10^12 of the mass.
+    EXPECT_NEAR(scene.particleHandler.getObject(0).getVelocity().x(), 0.25, 1e-9);
+    struct BondedGrowing : Pulled {
+        BondedGrowing() : Pulled(0.1, integrators::predictedVelocityVerlet) { setTimeMax(0.02); }
+        void actionsAfterTimeStep() override {
+            auto grain = particleHandler.getObject(1);
+            grain.setRadius(grain.getRadius() * (1 + 1e-12));
+        }
+    } bonded;
+    bonded.solve();
+    const BondPart::Bond& bond = bonded.bonds.all().at(0);
+    EXPECT_NEAR(norm(bond.elastic.force), bonded.force.norm(), 1e-8 * bonded.force.norm());
+    EXPECT_LT(norm(bond.damping.force), 1e-8 * bonded.force.norm());
+}
+
+// A part of a driver's own reads the velocities that contacts have seen, wherever it stands in the order.
+TEST(MercuryForces, areNotInTheVelocitiesThatOtherPartsRead) {
+    struct Reads : StepPart {
+        std::vector<Vec3D> seen;
+        [[nodiscard]] std::string_view name() const override { return "reads velocities"; }
+        void afterForces(StepContext& step) override {
+            seen.push_back(step.particles.getObject(0).getVelocity());
+        }
+    };
+    OnASpring scene;
+    Reads& reads = scene.addPart<Reads>();
+    scene.setTimeMax(0.01);
+    scene.setIntegrator(integrators::velocityVerlet);
+    std::vector<Vec3D> half;
+    Vec3D x(1, 0, 0), v(0, 2, 0);
+    half.push_back(v);  // forces at the start
+    for (int k = 0; k < 10; ++k) {
+        half.push_back(v - 0.5e-3 * 4 * x);
+        x += 1e-3 * half.back();
+        v = half.back() - 0.5e-3 * 4 * x;
+    }
+    scene.solve();
+    ASSERT_EQ(reads.seen.size(), half.size());
+    for (std::size_t k = 0; k < half.size(); ++k) EXPECT_LT((reads.seen[k] - half[k]).norm(), 1e-14) << k;
 }
 
 TEST(MercuryForces, areBookedAsGivenByTheDriver) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "Boundaries/LeesEdwardsBoundary.h"
 #include "Boundaries/PeriodicBoundary.h"
@@ -442,10 +443,11 @@ TEST(MercuryPrograms, periodicWallsWithSlidingFriction) {
 }
 
 // A grain that is squeezed between two held ones turns about their line (torsion), or across it (rolling):
-// the torque goes up to mu R* times the normal force at each of the two, then it swings and decays.
+// the torque goes up to mu 2 R* times the normal force at each of the two, then it swings and decays.
 class Squeezed : public MercuryScene<LinearViscoelasticFrictionSpecies> {
 public:
     double largest = 0;
+    std::vector<double> torques;  // N m, of one contact, after each step
     const bool rolls;
 
     explicit Squeezed(bool isRolling) : rolls(isRolling) {
@@ -479,7 +481,8 @@ public:
     }
     void actionsAfterTimeStep() override {
         const Vec3D torque = particleHandler.getObject(0)->getTorque();
-        largest = std::max(largest, std::abs(rolls ? torque.y() : torque.z()));
+        torques.push_back(-0.5 * (rolls ? torque.y() : torque.z()));
+        largest = std::max(largest, std::abs(torques.back()));
     }
 };
 
@@ -488,9 +491,17 @@ TEST(MercuryPrograms, rollingAndTorsionFriction) {
         Squeezed scene(rolls);
         scene.solve();
         const double force = scene.speciesHandler.getObject(0)->getStiffness() * 0.005;
-        // R* = r/2 at each of two contacts; the grain stays in the middle.
-        EXPECT_NEAR(scene.largest, 2 * 0.1 * 0.25 * force, 1e-9 * force);
+        // 2 R* = r, as there: rollingFriction*radius*normalForce, by its own words; the grain stays in the
+        // middle.
+        EXPECT_NEAR(scene.largest, 0.1 * 0.5 * force, 1e-9 * force);
         EXPECT_LT(scene.particleHandler.getObject(0)->getAngularVelocity().norm(), 0.5);
+        if (!rolls) continue;
+        // Its RollingFrictionSelfTest.torque: force and torque of one contact while it slides, to six digits.
+        // (When it sticks again the torque swings otherwise than there, where a spring that slides is
+        // shortened together with its dashpot: SpringSlider.h.)
+        EXPECT_NEAR(force, 62.4801, 5e-5);
+        for (const std::size_t step : {5u, 10u, 20u, 30u})
+            EXPECT_NEAR(scene.torques[step], 3.12401, 5e-6) << step;
     }
 }
 

@@ -162,9 +162,9 @@ TEST(DoubleAndPack, frictionLawsGiveTheSameBitsOfForceAndHistory) {
                                packed<Slip>(slips), history);
                 Vector<Pack> rotation;
                 if constexpr (HasContactTorque<Law>)
-                    rotation = Law::rotationForce(prepared, Pack::fromLanes(normalForces),
-                                                  packed<FrameRotation>(rotations).normal,
-                                                  packed<Slip>(slips), history);
+                    rotation = Law::rotationForce(
+                        prepared, packed<Contact>(contacts), Pack::fromLanes(normalForces),
+                        packed<FrameRotation>(rotations).normal, packed<Slip>(slips), history);
                 for (std::size_t k = 0; k < lanes; ++k) {
                     if constexpr (turns) histories[k].turn(rotations[k]);
                     auto free = histories[k];
@@ -175,8 +175,8 @@ TEST(DoubleAndPack, frictionLawsGiveTheSameBitsOfForceAndHistory) {
                     if constexpr (HasContactTorque<Law>)
                         expectSameBits<Vector>(
                             rotation, k,
-                            Law::rotationForce(prepared, normalForces[k], rotations[k].normal, slips[k],
-                                               histories[k]),
+                            Law::rotationForce(prepared, contacts[k], normalForces[k], rotations[k].normal,
+                                               slips[k], histories[k]),
                             Law::name);
                     expectSameBits<Vector>(force, k, single, Law::name);
                     if (contacts[k].overlap > 0)  // without overlap there is no spring: the kernel drops it

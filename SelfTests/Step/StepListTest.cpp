@@ -33,6 +33,7 @@ struct Diary : StepPart {
         : title(std::move(itsName)), pages(book), failsIn(std::move(failure)), failsAt(failsAfter) {}
 
     [[nodiscard]] std::string_view name() const override { return title; }
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}  // it has no settings
     void note(const StepContext& step, const std::string& phase) {
         pages.push_back(title + ' ' + phase);
         if (phase == failsIn && step.number == failsAt && step.length > 0) throw InputError("a fault.");
@@ -43,6 +44,7 @@ struct Diary : StepPart {
     void moveSurroundings(StepContext& step) override { note(step, "moveSurroundings"); }
     void afterMotion(StepContext& step) override { note(step, "afterMotion"); }
     void afterForces(StepContext& step) override { note(step, "afterForces"); }
+    void accelerate(StepContext& step) override { note(step, "accelerate"); }
     void finish(StepContext& step) override { note(step, "finish"); }
     void atEnd(StepContext& step) override { note(step, "atEnd"); }
     void takeBack(StepContext& step) override { note(step, "takeBack"); }
@@ -66,8 +68,9 @@ struct Scene3 : scenes::FewGrains<S> {
     [[nodiscard]] std::uint64_t hash() { return stateHash(particleHandler.store()); }
 };
 
-const std::vector<std::string> phases{"prepare",     "beforeMotion", "moveGrains", "moveSurroundings",
-                                      "afterMotion", "afterForces",  "finish",     "atEnd"};
+const std::vector<std::string> phases{"prepare",          "beforeMotion", "moveGrains",
+                                      "moveSurroundings", "afterMotion",  "afterForces",
+                                      "accelerate",       "finish",       "atEnd"};
 
 TEST(StepList, callsItsPartsPhaseByPhase) {
     std::vector<std::string> book, expected;
@@ -96,7 +99,7 @@ TEST(StepList, callsNoPartThatSleeps) {
 }
 
 TEST(StepList, takesAFailedStepBackInTheOppositeOrder) {
-    for (std::size_t k = 1; k < 6; ++k) {  // from beforeMotion to afterForces
+    for (std::size_t k = 1; k < 7; ++k) {  // from beforeMotion to accelerate
         std::vector<std::string> book;
         Scene3 scene, whole;
         scene.keepEnergyLedger(), whole.keepEnergyLedger();
@@ -134,6 +137,7 @@ TEST(StepList, refusesTwoPartsOfOneName) {
 /// Pushes all grains with an acceleration that swings, and counts its steps.
 struct Shaker : StepPart {
     [[nodiscard]] std::string_view name() const override { return "shaker"; }
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}  // it has no settings
     [[nodiscard]] std::span<const Conflict> ownConflicts() const override {
         static constexpr Conflict walls{Feature::OwnPart, Feature::Walls, "the shaker has no floor",
                                         "leave the walls out"};

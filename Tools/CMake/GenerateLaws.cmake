@@ -37,14 +37,6 @@ function(pendular_name_species normal frictions adhesions result)
                 string(REPLACE "Willett" "Willet" otherName "${name}")
                 string(APPEND text "using ${otherName} = ${name};\n")
             endif()
-            if(friction STREQUAL "SlidingRollingTorsion")  # MercuryDPM's shorter name
-                string(REPLACE "SlidingRollingTorsion" "Friction" otherName "${name}")
-                string(APPEND text "using ${otherName} = ${name};\n")
-                if(adhesion MATCHES "Willett")
-                    string(REPLACE "Willett" "Willet" otherName "${otherName}")
-                    string(APPEND text "using ${otherName} = ${name};\n")
-                endif()
-            endif()
         endforeach()
     endforeach()
     set(${result} "${text}" PARENT_SCOPE)
@@ -109,6 +101,7 @@ set(PENDULAR_POPULAR_SPECIES
     HertzianViscoelasticMindlinJKRSpecies
     LinearViscoelasticSpecies
     LinearViscoelasticSlidingFrictionSpecies
+    LinearViscoelasticFrictionSpecies
     LinearViscoelasticLiquidBridgeWillettSpecies
     LinearViscoelasticSlidingFrictionLiquidMigrationWillettSpecies)
 
@@ -136,6 +129,7 @@ set(PENDULAR_SPECIES_OF_TESTS
     HertzianViscoelasticMindlinSecantLiquidBridgeBagheriSpecies
     HertzianViscoelasticSlidingFrictionLiquidBridgeBagheriSpecies
     HertzianViscoelasticSlidingRollingTorsionLiquidBridgeBagheriSpecies
+    HertzianViscoelasticFrictionLiquidBridgeBagheriSpecies
     HertzianViscoelasticDMTSpecies
     HertzianViscoelasticIrreversibleAdhesiveSpecies
     HertzianViscoelasticJKRSpecies

@@ -73,7 +73,7 @@ public:
                     const Slip<double> turning{contact.effectiveRadius * (a.spin - b.spin), 0.5 * step,
                                                0.5 * step};
                     action.own = contact.effectiveRadius *
-                                 Friction::rotationForce(law, limit, normal, turning, history);
+                                 Friction::rotationForce(law, contact, limit, normal, turning, history);
                     action.torque += action.own;
                 }
             } else {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "Kernel/Motion/StabilityLimit.h"
+#include "Kernel/Species/Friction/Friction.h"
 #include "Kernel/Species/Friction/MindlinRollingTorsion.h"
 #include "Kernel/Species/Friction/SlidingRollingTorsion.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
@@ -19,11 +20,25 @@ using scenes::GrainMotion;
 
 using Linear = Species<LinearViscoelastic, SlidingRollingTorsion>;
 using Hertzian = Species<HertzianViscoelastic, MindlinRollingTorsion>;
+using Wide = Species<LinearViscoelastic, Friction>;  // of MercuryDPM's lever
+
+/// Levers in R*: those of MercuryDPM's interactions of the same names, but for SlidingRollingTorsion.
+template <class S>
+inline constexpr double rollingLever = 1;
+template <class S>
+inline constexpr double torsionLever = 1;
+template <>
+inline constexpr double torsionLever<Hertzian> = 2;
+template <>
+inline constexpr double rollingLever<Wide> = 2;
+template <>
+inline constexpr double torsionLever<Wide> = 2;
 
 constexpr double radius = 1e-3, density = 2500, gravity = 9.81;  // m, kg/m^3, m/s^2
 constexpr double mass = 4.0 / 3 * std::numbers::pi * radius * radius * radius * density;
 constexpr double normalStiffness = 2000;  // N/m: the weight presses in 5e-8 m, 5e-5 of the radius
 
+/// @param rolling largest torque against rolling over R* and the normal force; @param torsion the same
 template <class S>
 S material(double rolling, double torsion) {
     S species;
@@ -41,10 +56,10 @@ S material(double rolling, double torsion) {
     species.setSlidingFrictionCoefficient(0.8);
     species.setRollingStiffness(500);
     species.setRollingDissipation(0.01);
-    species.setRollingFrictionCoefficient(rolling);
+    species.setRollingFrictionCoefficient(rolling / rollingLever<S>);
     species.setTorsionStiffness(500);
     species.setTorsionDissipation(0.01);
-    species.setTorsionFrictionCoefficient(torsion);
+    species.setTorsionFrictionCoefficient(torsion / torsionLever<S>);
     return species;
 }
 
@@ -65,8 +80,8 @@ struct OnPlane {
     }
     static double overlap() {
         const double hertz = 4.0 / 3 * computeEffectiveElasticModulus(1e8, 0.3) * std::sqrt(radius);
-        return std::is_same_v<S, Linear> ? mass * gravity / normalStiffness
-                                         : std::pow(mass * gravity / hertz, 2.0 / 3);
+        return std::is_same_v<S, Hertzian> ? std::pow(mass * gravity / hertz, 2.0 / 3)
+                                           : mass * gravity / normalStiffness;
     }
     static double step() { return 2e-6; }  // s
     void run(double time) {
@@ -79,7 +94,7 @@ struct OnPlane {
 
 template <class S>
 class RollingTorsionOnPlane : public testing::Test {};
-using Materials = testing::Types<Linear, Hertzian>;
+using Materials = testing::Types<Linear, Hertzian, Wide>;
 TYPED_TEST_SUITE(RollingTorsionOnPlane, Materials);
 
 // Rolling without slip against the torque R* mu_r N, with R* = r at a wall: 7/5 m a = m g sin(alpha) -
@@ -165,6 +180,55 @@ TEST(RollingTorsion, stiffSpringsLimitTheTimeStep) {
     species.setTorsionStiffness(stiff);
     EXPECT_NEAR(limit() * omega * std::sqrt(8.0 + 4.0), 2, 1e-6);
     EXPECT_NEAR((halfPeriod<Linear::Mixed>(species, {radius}, mass) * omega), std::numbers::pi, 1e-12);
+}
+
+/// What the springs and dashpots of a contact are over R*^2, for two unequal spheres.
+template <class S>
+ContactStiffness stiffnessOf(const S& species) {
+    return contactStiffness(static_cast<const typename S::Mixed&>(species), {1e-3, 3e-3}, 1e-5);
+}
+
+// Torques over R* times the turn times R*: a lever of n R* makes a spring n^2 times as stiff.
+TEST(RollingTorsion, springsHaveTheLeversOfTheirLaws) {
+    const auto expect = [](const ContactStiffness& found, double rolling, double torsion) {
+        EXPECT_NEAR(found.rolling.spring / (500 * rolling), 1, 1e-12);
+        EXPECT_NEAR(found.rolling.dashpot / (0.01 * rolling), 1, 1e-12);
+        EXPECT_NEAR(found.torsion.spring / (500 * torsion), 1, 1e-12);
+        EXPECT_NEAR(found.torsion.dashpot / (0.01 * torsion), 1, 1e-12);
+    };
+    expect(stiffnessOf(material<Linear>(0.1, 0.1)), 1, 1);
+    expect(stiffnessOf(material<Wide>(0.1, 0.1)), 4, 4);
+    expect(stiffnessOf(material<Hertzian>(0.1, 0.1)), 1, 4);
+}
+
+// Without a stiffness of its own MindlinRollingTorsion has Mindlin's, 8 G* a with a = sqrt(R* d), whatever
+// the factor of the sliding spring: at 5 % of the smaller radius, R* = 0.75 mm.
+TEST(RollingTorsion, hasMindlinsStiffnessWhereNoneIsGiven) {
+    Hertzian species = material<Hertzian>(0.1, 0.1);
+    species.setRollingStiffness(0), species.setTorsionStiffness(0);
+    species.setSpringFactor(0.5);
+    const double mindlin =
+        8 * computeEffectiveShearModulus(1e8, 0.3) * std::sqrt(7.5e-4 * largestSoundOverlap * 1e-3);
+    const ContactStiffness found = stiffnessOf(species);
+    EXPECT_NEAR(found.sliding.spring / (0.5 * mindlin), 1, 1e-12);
+    EXPECT_NEAR(found.rolling.spring / mindlin, 1, 1e-12);
+    EXPECT_NEAR(found.torsion.spring / (4 * mindlin), 1, 1e-12);
+    species.setRollingStiffness(300);
+    EXPECT_NEAR(stiffnessOf(species).rolling.spring / 300, 1, 1e-12);
+    EXPECT_NEAR(stiffnessOf(species).torsion.spring / (4 * mindlin), 1, 1e-12);
+}
+
+// The ledger closes, also where the springs change with the overlap.
+TEST(RollingTorsion, closesTheLedgerWithMindlinsStiffness) {
+    Hertzian species = material<Hertzian>(0.2, 0.2);
+    species.setRollingStiffness(0), species.setTorsionStiffness(0);
+    OnPlane<Hertzian> sphere(species, 0.3, {0, 0, 50});
+    const double before = sphere.scene.energyUnaccountedFor();
+    sphere.run(0.02);
+    const EnergyLedger& ledger = sphere.scene.energyLedger();
+    EXPECT_GT(ledger.rolling, 1e-10);
+    EXPECT_GT(ledger.torsion, 1e-10);
+    EXPECT_NEAR(sphere.scene.energyUnaccountedFor(), before, 1e-10 * ledger.rolling);
 }
 
 // A coefficient without a spring would do nothing.

@@ -48,9 +48,11 @@ void setFriction(S& species, double factor) {
     if constexpr (requires { species.setSlidingFrictionCoefficient(1.0); })
         species.setSlidingFrictionCoefficient(sticking);
     if constexpr (requires { species.setRollingStiffness(1.0); }) {
-        species.setRollingStiffness(0.2 * factor * stiffness);
+        // The same torques by laws of other levers, n R*.
+        const auto over = [](RotationLever lever) { return std::pow(static_cast<double>(lever), -2); };
+        species.setRollingStiffness(0.2 * factor * stiffness * over(S::leverOfRolling));
         species.setRollingFrictionCoefficient(sticking);
-        species.setTorsionStiffness(0.2 * factor * stiffness);
+        species.setTorsionStiffness(0.2 * factor * stiffness * over(S::leverOfTorsion));
         species.setTorsionFrictionCoefficient(sticking);
     }
 }

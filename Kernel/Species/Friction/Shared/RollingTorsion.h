@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -28,6 +27,10 @@ struct RollingTorsionSpring {
     }
 };
 
+/// The lever of a law's rolling or torsion, in effective radii R* = r1 r2 / (r1 + r2), which is r at a wall.
+/// A law says which it takes, as the numbers of a material mean other torques with another one.
+enum class RotationLever { EffectiveRadius = 1, EffectiveDiameter = 2 };
+
 /// The forces of rolling and torsion: the torque on body 1 over R*.
 template <class T>
 struct RotationForces {
@@ -35,13 +38,18 @@ struct RotationForces {
 };
 
 /// Springs, dashpots and sliders against rolling and torsion: each gives a force F = -(k s + g v), at most mu
-/// times the normal force, of the way s of R* times the relative turn, and the torque R* F on body 1, the
-/// opposite one on body 2. Law is the law derived from this.
-/// Source: Luding (2008), Granular Matter 10, 235, rolling and torsion resistance; the torque has the
-/// effective radius, not the effective diameter: Thornton et al. (2023), equation 4.9.
+/// times the normal force, of the way s of the lever L times the relative turn, and the torque L F on body 1,
+/// the opposite one on body 2: the limit of the torque is mu L F_n, its stiffness k L^2. Law is the law
+/// derived from this; it says its levers, leverOfRolling and leverOfTorsion.
+/// Source: Luding (2008), Granular Matter 10, 235, rolling and torsion resistance. The lever of rolling is R*
+/// by Thornton et al. (2023), equation 4.9. MercuryDPM's FrictionInteraction has 2 R* for both, its
+/// MindlinRollingTorsionInteraction R* for rolling and 2 R* for torsion (read in its sources of 2018 to
+/// 2024).
 template <class Law>
 struct RollingTorsion {
     static constexpr bool hasContactTorque = true;
+    /// Whether a stiffness of 0 stands for that of the tangential spring; else it is no spring.
+    static constexpr bool rotatesAsItSlides = false;
 
     double rollingStiffness = 0;    // k_r, N/m
     double rollingDissipation = 0;  // g_r, kg/s
@@ -54,21 +62,33 @@ struct RollingTorsion {
         using R = RollingTorsion;
         constexpr std::string_view rolling = "Luding (2008), rolling resistance",
                                    torsion = "Luding (2008), torsion resistance";
+        constexpr bool ofSliding = Law::rotatesAsItSlides;
+        constexpr bool isWideRolling = Law::leverOfRolling == RotationLever::EffectiveDiameter,
+                       isWideTorsion = Law::leverOfTorsion == RotationLever::EffectiveDiameter;
         return std::to_array<Field<R>>(
             {{"rollingStiffness", &R::rollingStiffness, "N/m", notNegative, Mixing::Harmonic,
-              "spring constant k_r against rolling, often 2/7 of the normal one; 0: no rolling resistance",
+              ofSliding ? "spring constant k_r against rolling; 0: Mindlin's 8 G* a of the contact"
+                        : "spring constant k_r against rolling, often 2/7 of the normal one; 0: no rolling "
+                          "resistance",
               rolling},
              {"rollingDissipation", &R::rollingDissipation, "kg/s", notNegative, Mixing::Arithmetic,
               "dashpot constant g_r against rolling", rolling},
              {"rollingFrictionCoefficient", &R::rollingFrictionCoefficient, "", notNegative,
-              Mixing::Geometric, "largest torque against rolling over R* and the normal force",
-              "Thornton et al. (2023), equation 4.9"},
+              Mixing::Geometric,
+              isWideRolling ? "largest torque against rolling over 2 R* and the normal force"
+                            : "largest torque against rolling over R* and the normal force",
+              isWideRolling ? rolling : "Thornton et al. (2023), equation 4.9"},
              {"torsionStiffness", &R::torsionStiffness, "N/m", notNegative, Mixing::Harmonic,
-              "spring constant k_o against torsion; 0: no torsion resistance", torsion},
+              ofSliding ? "spring constant k_o against torsion; 0: Mindlin's 8 G* a of the contact"
+                        : "spring constant k_o against torsion; 0: no torsion resistance",
+              torsion},
              {"torsionDissipation", &R::torsionDissipation, "kg/s", notNegative, Mixing::Arithmetic,
               "dashpot constant g_o against torsion", torsion},
              {"torsionFrictionCoefficient", &R::torsionFrictionCoefficient, "", notNegative,
-              Mixing::Geometric, "largest torque against torsion over R* and the normal force", torsion}});
+              Mixing::Geometric,
+              isWideTorsion ? "largest torque against torsion over 2 R* and the normal force"
+                            : "largest torque against torsion over R* and the normal force",
+              torsion}});
     }
 
     void setRollingStiffness(double value) { set(&RollingTorsion::rollingStiffness, value); }
@@ -98,6 +118,7 @@ struct RollingTorsion {
 
     /// A coefficient without a spring would do nothing, in silence.
     [[nodiscard]] std::optional<std::string> objection(const Bodies&) const {
+        if (Law::rotatesAsItSlides) return std::nullopt;
         const auto missing = [](std::string_view kind, double stiffness, double coefficient) {
             return stiffness > 0 || coefficient == 0
                        ? std::nullopt
@@ -109,24 +130,34 @@ struct RollingTorsion {
         return found ? found : missing("torsion", torsionStiffness, torsionFrictionCoefficient);
     }
 
+    /// With the lever R*: a lever of n R* is the same torque as n^2 times the spring and the dashpot and n
+    /// times the coefficient, also where the slider slides.
     struct PreparedSlider {
-        double stiffness;    // N/m
-        double damping;      // kg/s
-        double coefficient;  // of friction
+        double stiffness;       // N/m
+        double damping;         // kg/s
+        double coefficient;     // of friction
+        double shareOfSliding;  // of the stiffness of the tangential spring, which adds to it
     };
     struct PreparedRotation {
         PreparedSlider rolling, torsion;
     };
     [[nodiscard]] PreparedRotation prepareRotation() const {
-        return {{rollingStiffness, rollingDissipation, rollingFrictionCoefficient},
-                {torsionStiffness, torsionDissipation, torsionFrictionCoefficient}};
+        const auto prepared = [](RotationLever lever, double stiffness, double damping, double coefficient) {
+            const auto n = static_cast<double>(lever);
+            return PreparedSlider{n * n * stiffness, n * n * damping, n * coefficient,
+                                  Law::rotatesAsItSlides && stiffness == 0 ? n * n : 0};
+        };
+        return {
+            prepared(Law::leverOfRolling, rollingStiffness, rollingDissipation, rollingFrictionCoefficient),
+            prepared(Law::leverOfTorsion, torsionStiffness, torsionDissipation, torsionFrictionCoefficient)};
     }
 
     /// The torque on body 1 over R* (N), by its two parts.
-    /// @param normal unit, from body 1 to body 2; @param turning of R* times the relative spin
+    /// @param sliding N/m, of the tangential spring; @param normal unit, from body 1 to body 2; @param
+    /// turning of R* times the relative spin
     template <class T>
-    [[gnu::always_inline]] static RotationForces<T> turnSprings(const PreparedRotation& p, T normalForce,
-                                                                const Vector<T>& normal,
+    [[gnu::always_inline]] static RotationForces<T> turnSprings(const PreparedRotation& p, T sliding,
+                                                                T normalForce, const Vector<T>& normal,
                                                                 const Slip<T>& turning,
                                                                 RollingTorsionSpring<T>& spring) {
         const T limit = max(normalForce, T(0));
@@ -134,14 +165,11 @@ struct RollingTorsion {
         torsion.velocity = dot(turning.velocity, normal) * normal;
         rolling.velocity = turning.velocity - torsion.velocity;
         Vector<T> twist = spring.torsion * normal;
-        const RotationForces<T> forces{turnSpring(p.rolling, limit, rolling, spring.rolling.displacement),
-                                       turnSpring(p.torsion, limit, torsion, twist)};
+        const RotationForces<T> forces{
+            turnSpring(p.rolling, sliding, limit, rolling, spring.rolling.displacement),
+            turnSpring(p.torsion, sliding, limit, torsion, twist)};
         spring.torsion = dot(twist, normal);
         return forces;
-    }
-    /// The stiffer of the two springs, N/m.
-    static double stiffestOf(const PreparedRotation& p) {
-        return std::max(p.rolling.stiffness, p.torsion.stiffness);
     }
 
 private:
@@ -153,10 +181,13 @@ private:
                             Law::name, field, value, dynamic));
     }
     template <class T>
-    [[gnu::always_inline]] static SliderForce<T> turnSpring(const PreparedSlider& p, T normalForce,
+    [[gnu::always_inline]] static SliderForce<T> turnSpring(const PreparedSlider& p,
+                                                            [[maybe_unused]] T sliding, T normalForce,
                                                             const Slip<T>& slip, Vector<T>& spring) {
         const T limit = p.coefficient * normalForce;
-        return slideSpring(T(p.stiffness), T(p.damping), limit, limit, slip, spring);
+        T stiffness = p.stiffness;
+        if constexpr (Law::rotatesAsItSlides) stiffness = fma(T(p.shareOfSliding), sliding, stiffness);
+        return slideSpring(stiffness, T(p.damping), limit, limit, slip, spring);
     }
     void set(double RollingTorsion::*member, double value) {
         setField(static_cast<Law&>(*this), member, value);

@@ -39,22 +39,26 @@ struct RollingTorsionFriction : TangentialLaw<Law>, StickSlip<Law>, RollingTorsi
                                      p.spring.coefficient * max(normalForce, T(0)), slip, springs.sliding);
     }
     template <class T>
-    [[gnu::always_inline]] static RotationForces<T> rotate(const Prepared& p, T normalForce,
-                                                           const Vector<T>& normal, const Slip<T>& turning,
+    [[gnu::always_inline]] static RotationForces<T> rotate(const Prepared& p, const Contact<T>& contact,
+                                                           T normalForce, const Vector<T>& normal,
+                                                           const Slip<T>& turning,
                                                            FrictionSprings<T>& springs) {
-        return RollingTorsion<Law>::turnSprings(p.rotation, normalForce, normal, turning, springs.rotation);
+        T sliding = 0;
+        if constexpr (Law::rotatesAsItSlides) sliding = Spring::fullStiffness(p.spring, contact);
+        return RollingTorsion<Law>::turnSprings(p.rotation, sliding, normalForce, normal, turning,
+                                                springs.rotation);
     }
     template <class T>
-    [[gnu::always_inline]] static Vector<T> rotationForce(const Prepared& p, T normalForce,
-                                                          const Vector<T>& normal, const Slip<T>& turning,
+    [[gnu::always_inline]] static Vector<T> rotationForce(const Prepared& p, const Contact<T>& contact,
+                                                          T normalForce, const Vector<T>& normal,
+                                                          const Slip<T>& turning,
                                                           FrictionSprings<T>& springs) {
-        const RotationForces<T> forces = rotate(p, normalForce, normal, turning, springs);
+        const RotationForces<T> forces = rotate(p, contact, normalForce, normal, turning, springs);
         return forces.rolling.force + forces.torsion.force;
     }
     static double stiffness(const Prepared& p, const Contact<double>& contact) {
         return Spring::springStiffness(p.spring, contact);
     }
-    static double rotationStiffness(const Prepared& p) { return RollingTorsion<Law>::stiffestOf(p.rotation); }
 };
 
 }  // namespace pendular
