@@ -8,36 +8,11 @@
 #   Tools/run-tests.sh
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/read-options.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/time-stages.sh"
 (($# == 0)) || read_options -- "$@"
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 jobs=$(getconf _NPROCESSORS_ONLN)
-table=$(mktemp) clock=$(mktemp)
-end() {
-    if [[ -s $table ]]; then
-        echo "== Where the time went (seconds, and those of all processors)"
-        cat "$table"
-    fi
-    rm -f "$table" "$clock"
-}
-trap end EXIT
-
-# In processor: the seconds of all commands that have ended. Not printed: a shell of its own would see only its own.
-read_processor() {
-    times >"$clock"
-    processor=$(awk 'NR == 2 { gsub("[ms]", " "); printf "%.0f", 60 * $1 + $2 + 60 * $3 + $4 }' "$clock")
-}
-stage() {  # name, command...
-    local name=$1 begin=$SECONDS before status=0
-    shift
-    echo "== $name"
-    read_processor
-    before=$processor
-    "$@" || status=$?
-    read_processor
-    printf '%6d %6d  %s\n' $((SECONDS - begin)) $((processor - before)) "$name" >>"$table"
-    return "$status"
-}
 build_and_test() {  # preset
     stage "Configuring (preset $1, folder build/$1)" cmake --preset "$1" -D PENDULAR_BUILD_TESTS=ON \
         -D PENDULAR_QUICK_TEST_BUILD=ON

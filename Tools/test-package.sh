@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs a Debian package of Pendular on a bare Debian 12 without a compiler, made by mmdebstrap in a folder, and runs a
+# Installs a Debian package of Pendular on a bare Debian without a compiler, made by mmdebstrap in a folder, and runs a
 # driver and an example of Python in it; then a program and the Python module for each level of the processor, which give
-# the same bits. As root.
+# the same bits. The release is that of this machine, whose libraries a package that was made here needs. As root.
 #   Tools/test-package.sh PACKAGE [FOLDER]      default: build/bare-debian, which is removed at the end
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/read-options.sh"
@@ -12,7 +12,8 @@ root=${2:-$(dirname "${BASH_SOURCE[0]}")/../build/bare-debian}
 command -v mmdebstrap >/dev/null || refuse "mmdebstrap is missing (apt install mmdebstrap)"
 if [[ -e $root ]]; then refuse "$root is there already; remove it, or name another folder"; fi
 trap 'umount -q "$root/proc"; rm -rf --one-file-system "$root"' EXIT
-mmdebstrap --quiet --variant=apt bookworm "$root"
+suite=$(. /etc/os-release && echo "${VERSION_CODENAME:-}")
+mmdebstrap --quiet --variant=apt "${suite:-stable}" "$root"
 mount -t proc proc "$root/proc"  # where programs find their folder, and the module what the processor is
 cp "$package" "$root/tmp/pendular.deb"
 cp /etc/resolv.conf "$root/etc/resolv.conf"

@@ -111,8 +111,9 @@ public:
 
     [[nodiscard]] double width() const { return options.width * options.diameter; }  // m
     /// Kinetic energy of a grain, on average, over m g d.
+    /// On several ranks all of them must call this together.
     [[nodiscard]] double restlessness() {
-        return kineticEnergy(particleHandler.store()) /
+        return (getKineticEnergy() + getRotationalEnergy()) /
                (static_cast<double>(options.number) * meanMass(options) * gravity * options.diameter);
     }
 

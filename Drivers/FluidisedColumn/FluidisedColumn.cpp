@@ -50,7 +50,11 @@ struct FluidisedColumn : ColumnBed {
                    column->pressureDrop(), weightInFluid() / area());
     }
     void completeOutput() override { table->close(); }
-    void visitState(StateArchive& archive) override { table->visitState(archive); }
+    void visitState(StateArchive& archive) override {
+        archive.same("stage", stage, "s");
+        archive.same("largest", largest);
+        table->visitState(archive);
+    }
 
 private:
     /// The exponent of the porosity, over the Reynolds number of a grain alone: J. F. Richardson and W. N.

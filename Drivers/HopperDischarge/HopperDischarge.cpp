@@ -11,7 +11,7 @@ using namespace pendular;
 namespace {
 
 struct Options {
-    Hopper hopper;
+    Hopper hopper{.number = 12000};                     // a head of two orifices to the end
     std::string sizes;                                  // file; empty: none
     double cone = 0;                                    // degrees
     std::vector<double> orifices{0.012, 0.015, 0.018};  // m, diameters
@@ -52,8 +52,10 @@ void writeCurves(const Options& options, const std::vector<Discharge>& runs) {
     curves.close();
 }
 void writeFlows(const Options& options, const std::vector<Discharge>& runs, const BeverlooLaw& law) {
-    CsvFile flows(options.run.output + "/flow.csv", "orifice_m,flow_kg/s,change_of_flow,beverloo_kg/s");
-    for (const Discharge& run : runs) flows.row(run.orifice, run.flow, run.change, law.flow(run.orifice));
+    CsvFile flows(options.run.output + "/flow.csv",
+                  "orifice_m,flow_kg/s,change_of_flow,beverloo_kg/s,flow_error_kg/s,head_at_end");
+    for (const Discharge& run : runs)
+        flows.row(run.orifice, run.mean.flow, run.change, law.flow(run.orifice), run.mean.error, run.head);
     flows.close();
 }
 
@@ -66,7 +68,7 @@ void run(const Options& options) {
     for (const double orifice : options.orifices) {
         runs.push_back(discharge(options.hopper, grains, orifice, options.begin, options.endTime,
                                  options.interval, options.run));
-        flows.push_back({orifice, runs.back().flow});
+        flows.push_back({orifice, runs.back().mean.flow});
     }
     writeCurves(options, runs);  // also where no law can be fitted
     const BeverlooLaw law =
@@ -75,9 +77,13 @@ void run(const Options& options) {
     if (options.run.quiet) return;
     for (const Discharge& run : runs)
         fmt::print(
-            "orifice {:.4g} m: {:.4g} kg/s ({:+.1f} % from the first half to the second); the law "
-            "gives {:.4g} kg/s; {} of {} grains have left\n",
-            run.orifice, run.flow, 100 * run.change, law.flow(run.orifice), run.number, grains.size());
+            "orifice {:.4g} m: {:.4g} +- {:.2g} kg/s from {:.4g} s to {:.4g} s ({:+.1f} % from the first "
+            "half "
+            "to the second), the head is {:.2g} orifices at the end{}; the law gives {:.4g} kg/s; {} of {} "
+            "grains have left\n",
+            run.orifice, run.mean.flow, run.mean.error, options.begin, run.end, 100 * run.change, run.head,
+            run.head < leastHead ? " (below 2 the flow falls)" : "", law.flow(run.orifice), run.number,
+            grains.size());
     fmt::print(
         "Beverloo's law: C = {:.3f}, k = {:.2f}, with a bulk density of {:.0f} kg/m^3; wrote "
         "{}/discharge.csv and {}/flow.csv\n",

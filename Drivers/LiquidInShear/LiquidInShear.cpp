@@ -147,6 +147,7 @@ private:
         return slices[static_cast<std::size_t>(std::clamp(place, 0.0, count - 1.0))];
     }
     void sample() {
+        gather();  // on several ranks
         samples += 1;
         for (auto&& grain : particleHandler) {
             if (grain.isFixed()) continue;

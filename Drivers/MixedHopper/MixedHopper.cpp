@@ -6,6 +6,7 @@
 #include "Drivers/MixedHopper/MixedHopperScene.h"
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/CommandLineLibrary.h"
+#include "Drivers/Shared/MeanFlow.h"
 #include "Kernel/Files/CsvFile.h"
 
 using namespace pendular;
@@ -36,16 +37,14 @@ void check(Options& o) {
         checkValue("MixedHopper", "--orifice-m", orifice, "m", {0, o.hopper.diameter, false, false});
 }
 
-/// kg/s: the slope of the line through the curve from one time (s) to another one.
-double flowOf(const MixedHopperScene& scene, double from, double to) {
-    std::vector<CurvePoint> part;
-    for (const CurvePoint& p : scene.getCurve())
-        if (p.x >= from && p.x <= to) part.push_back(p);
-    return part.size() < 2 ? 0 : fitLine(part).slope;
+/// From one time (s) to another one.
+MeanFlow flowOf(const MixedHopperScene& scene, double from, double to) {
+    const auto part = partOf(scene.getCurve(), from, to);
+    return part.size() < 2 ? MeanFlow{0, unset} : meanFlow(part);
 }
 
 struct Discharge {
-    double orifice, density, flow, change;  // m, kg/m^3, kg/s, change over the flow
+    double orifice, density, flow, error, change;  // m, kg/m^3, kg/s, kg/s, change over the flow
 };
 
 Discharge discharge(const Options& o, double orifice, CsvFile& curves) {
@@ -54,11 +53,11 @@ Discharge discharge(const Options& o, double orifice, CsvFile& curves) {
     scene.setTimeMax(o.hopper.fillingTime() + o.endTime);
     scene.solve();
     for (const CurvePoint& p : scene.getCurve()) curves.row(orifice, p.x, p.y);
-    if (scene.getCurve().empty()) return {orifice, 0, 0, 0};
+    if (scene.getCurve().empty()) return {orifice, 0, 0, unset, 0};
     const double end = std::min(o.endTime, scene.getCurve().back().x), middle = 0.5 * (o.begin + end);
-    const double flow = flowOf(scene, o.begin, end);
-    return {orifice, scene.getBulkDensity(), flow,
-            flow > 0 ? (flowOf(scene, middle, end) - flowOf(scene, o.begin, middle)) / flow : 0};
+    const auto [flow, error] = flowOf(scene, o.begin, end);
+    return {orifice, scene.getBulkDensity(), flow, error,
+            flow > 0 ? (flowOf(scene, middle, end).flow - flowOf(scene, o.begin, middle).flow) / flow : 0};
 }
 
 void run(const Options& o) {
@@ -70,9 +69,9 @@ void run(const Options& o) {
         if (runs.back().flow > 0) flows.push_back({orifice, runs.back().flow});
         if (!o.run.quiet)
             fmt::print(
-                "orifice {:.4g} m: {:.4g} kg/s ({:+.1f} % from the first half to the second), bulk density "
-                "{:.0f} kg/m^3\n",
-                orifice, runs.back().flow, 100 * runs.back().change, runs.back().density);
+                "orifice {:.4g} m: {:.4g} +- {:.2g} kg/s ({:+.1f} % from the first half to the second), bulk "
+                "density {:.0f} kg/m^3\n",
+                orifice, runs.back().flow, runs.back().error, 100 * runs.back().change, runs.back().density);
     }
     curves.close();
     if (flows.size() < 2)
@@ -84,9 +83,9 @@ void run(const Options& o) {
     checkValue("MixedHopper", "bulk density of the filling", runs.front().density, "kg/m^3", positive);
     const BeverlooLaw law = fitBeverloo(flows, runs.front().density, MixedHopper::gravity, o.hopper.size);
     CsvFile table(o.run.output + "/flow.csv",
-                  "orifice_m,flow_kg/s,change_of_flow,bulk_density_kg/m3,beverloo_kg/s");
+                  "orifice_m,flow_kg/s,change_of_flow,bulk_density_kg/m3,beverloo_kg/s,flow_error_kg/s");
     for (const Discharge& one : runs)
-        table.row(one.orifice, one.flow, one.change, one.density, law.flow(one.orifice));
+        table.row(one.orifice, one.flow, one.change, one.density, law.flow(one.orifice), one.error);
     table.close();
     if (!o.run.quiet)
         fmt::print(

@@ -72,6 +72,7 @@ public:
 
     void actionsBeforeTimeStep() override {
         if (isOpen || getTime() < hopper.fillingTime()) return;
+        gather();  // on several ranks: for the density, and before walls are changed
         density = bulkDensity();
         wallHandler.removeObject(lid);
         isOpen = true;

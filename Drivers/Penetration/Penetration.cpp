@@ -37,8 +37,9 @@ public:
                    intruder().getForce().z());
     }
     void actionsAfterTimeStep() override {
-        deepest = std::max(deepest, penetration());
-        stopped = penetration() > 0 && intruder().getVelocity().z() >= 0;
+        const Fall now = fall();
+        deepest = std::max(deepest, now.depth);
+        stopped = now.depth > 0 && now.velocity >= 0;
     }
     [[nodiscard]] bool continueSolve() const override { return options.wholeTime || !stopped; }
 

@@ -84,8 +84,9 @@ public:
         return constants::pi / 6 * std::pow(options.diameter, 3);
     }  // m^3
     /// Kinetic energy of a rod, on average, over m g d.
+    /// On several ranks all of them must call this together.
     [[nodiscard]] double restlessness() {
-        return kineticEnergy(particleHandler.store()) /
+        return (getKineticEnergy() + getRotationalEnergy()) /
                (static_cast<double>(options.number) * density * rodVolume() * gravity * options.diameter);
     }
 
@@ -149,7 +150,7 @@ public:
             isInside.push_back(layer.contains(rod.getPosition().z()));
             if (!isInside.back()) continue;
             means.rods += 1;
-            const double cosine = (rod.getOrientation() * Vec3D::UnitX()).z();  // of the least moment
+            const double cosine = (rod.getPrincipalAxes() * Vec3D::UnitX()).z();  // of the least moment
             if (aspectRatio > 1) means.order += 1.5 * cosine * cosine - 0.5;
         }
         std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;  // of rods

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <string>
@@ -37,6 +38,22 @@ inline Line fitLine(std::span<const CurvePoint> points) {
     }
     if (!(xx > 0)) throw InputError("A line needs two points at least, at different places.");
     return {xy / xx, meanY - xy / xx * meanX};
+}
+
+/// The median of the slopes of all pairs of points with different x, which grains that stick out do not turn
+/// as they turn a line of least squares. Sources: Theil (1950), Proc. Kon. Ned. Akad. Wet. A 53, 386; Sen
+/// (1968), J. Am. Stat. Assoc. 63, 1379. Throws InputError with fewer than two different x.
+inline double medianSlope(std::span<const CurvePoint> points) {
+    std::vector<double> slopes;
+    for (std::size_t a = 0; a < points.size(); ++a)
+        for (std::size_t b = a + 1; b < points.size(); ++b)
+            if (points[b].x != points[a].x)
+                slopes.push_back((points[b].y - points[a].y) / (points[b].x - points[a].x));
+    if (slopes.empty()) throw InputError("A slope needs two points at least, at different places.");
+    const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
+    std::ranges::nth_element(slopes, middle);
+    if (slopes.size() % 2 == 1) return *middle;
+    return 0.5 * (*middle + *std::max_element(slopes.begin(), middle));
 }
 
 /// Beverloo's law of the discharge through a circular orifice of diameter D in a flat bottom:

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "Drivers/Shared/Beverloo.h"
 #include "Drivers/Shared/GrainRows.h"
+#include "Drivers/Shared/MeanFlow.h"
 #include "Drivers/Shared/RunOptions.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Sizes/SizeLaws.h"
@@ -32,6 +32,7 @@ struct Hopper {
     [[nodiscard]] SizeDistribution sizesOfGrains() const {
         return sizes ? *sizes : evenSizes((1 - spread) * grainDiameter, (1 + spread) * grainDiameter);
     }
+    [[nodiscard]] double area() const { return 0.25 * std::numbers::pi * diameter * diameter; }  // m^2
     /// m, of the bottom at a distance from the axis.
     [[nodiscard]] double heightAt(double radius) const { return std::tan(coneSlope) * radius; }
     /// m^3, of the hopper up to a height (m)
@@ -40,6 +41,16 @@ struct Hopper {
         if (height >= rim) return std::numbers::pi * radius * radius * (height - 2.0 / 3 * rim);
         const double there = height / std::tan(coneSlope);
         return std::numbers::pi / 3 * there * there * height;
+    }
+    /// The height above the orifice (m, its diameter) up to which a mass (kg) of this bulk density (kg/m^3)
+    /// fills the hopper evenly, over the diameter.
+    [[nodiscard]] double headOf(double mass, double bulk, double orifice) const {
+        const double hole = heightAt(0.5 * orifice), filled = mass / bulk + volumeBelow(hole);
+        double low = 0, high = 1;  // of the height over the diameter of the hopper
+        const auto below = [&](double share) { return volumeBelow(hole + share * diameter) < filled; };
+        while (below(high) && high < 1e6) high *= 2;
+        for (int k = 0; k < 60; ++k) (below(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+        return low * diameter / orifice;
     }
 };
 
@@ -168,17 +179,26 @@ struct Discharge {
     double orifice;                 // diameter, m
     double bulkDensity;             // kg/m^3, at the start
     std::vector<CurvePoint> curve;  // x: time, s; y: mass that has left, kg
-    double flow;                    // kg/s, the slope of the line through the steady part of the curve
+    MeanFlow mean;                  // of the steady part
     std::size_t number;             // of grains that have left
     double change;                  // of the flow from the first half of the steady part to the second, of 1
+    double end;                     // s, of the steady part
+    double head;                    // m, of what was left then, above the orifice, over its diameter
 };
 
-/// Lets grains out of a hopper.
+/// Orifice diameters of filling above the orifice, below which the flow falls: da Silva et al. (2025,
+/// arXiv 2512.03698) ask for this head where Beverloo's law is to hold.
+inline constexpr double leastHead = 2;
+
+/// Lets grains out of a hopper. The steady part ends with the run, or where the head falls below leastHead,
+/// if that leaves at least half of it.
 /// @param begin s, of the steady part; @param end s, of the run; @param interval s, between points
 inline Discharge discharge(const Hopper& hopper, std::span<const GrainRow> grains, double orifice,
                            double begin, double end, double interval, const RunOptions& options = {}) {
     HopperScene scene(hopper, grains, orifice);
-    Discharge result{orifice, scene.bulkDensity(), {}, 0, 0, 0};
+    Discharge result{orifice, scene.bulkDensity(), {}, {0, unset}, 0, 0, end, 0};
+    double mass = 0;  // kg
+    for (const GrainReference grain : scene.particleHandler) mass += grain.getMass();
     checkValue("HopperScene", "bulk density", result.bulkDensity, "kg/m^3", positive);
     scene.keepCurve(&result.curve);
     options.apply(scene, dischargeName(orifice));
@@ -189,23 +209,29 @@ inline Discharge discharge(const Hopper& hopper, std::span<const GrainRow> grain
     // A run that was resumed may have gone on to a later end.
     std::erase_if(result.curve, [&](const CurvePoint& p) { return p.x > end + scene.getTimeStep(); });
 
-    const auto after = [&](double time) {
-        return std::find_if(result.curve.begin(), result.curve.end(),
-                            [&](const CurvePoint& p) { return p.x >= time; });
-    };
-    const double finish = std::min(end, result.curve.back().x);  // it may have emptied
-    if (!(begin < finish))
+    result.end = std::min(end, result.curve.back().x);  // it may have emptied
+    if (!(begin < result.end))
         throw InputError(fmt::format(
             "HopperScene: the hopper was empty at {:g} s, before the steady part that starts at {:g} s.",
-            finish, begin));
-    const auto first = after(begin), middle = after(0.5 * (begin + finish)), last = result.curve.end();
-    result.flow = fitLine({first, last}).slope;
-    if (!(result.flow > 0))
+            result.end, begin));
+    const auto headAt = [&](const CurvePoint& p) {
+        return hopper.headOf(mass - p.y, result.bulkDensity, orifice);
+    };
+    const auto low =
+        std::ranges::find_if(result.curve, [&](const CurvePoint& p) { return headAt(p) < leastHead; });
+    if (low != result.curve.end() && low->x - begin >= 0.5 * (result.end - begin)) result.end = low->x;
+    const auto steady = partOf(result.curve, begin, result.end);
+    result.head = headAt(steady.back());
+    result.mean = meanFlow(steady);
+    if (!(result.mean.flow > 0))
         throw InputError(fmt::format(
             "HopperScene: no grain left the orifice of {:g} m from {:g} s to {:g} s; take one that is wider "
             "than five grain diameters, or a later end.",
             orifice, begin, end));
-    result.change = (fitLine({middle, last}).slope - fitLine({first, middle}).slope) / result.flow;
+    const std::size_t middle = steady.size() / 2;
+    if (middle > 0)
+        result.change = (meanFlow(steady.subspan(middle)).flow - meanFlow(steady.first(middle + 1)).flow) /
+                        result.mean.flow;
     return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "Drivers/Shared/GrainLattice.h"
@@ -82,10 +83,20 @@ public:
     [[nodiscard]] auto intruder() { return particleHandler.getObject(bedSize); }
     /// m, of the highest point of the bed at the start.
     [[nodiscard]] double surface() const { return surfaceHeight; }
-    /// m, of the intruder's lowest point below surface(); negative above.
-    [[nodiscard]] double penetration() {
-        return surfaceHeight - (intruder().getPosition().z() - intruder().getRadius());
+    struct Fall {
+        double depth;     // m, of the intruder's lowest point below surface(); negative above
+        double velocity;  // m/s, along z
+    };
+    /// Of the intruder, whichever rank has it: all must call this together.
+    [[nodiscard]] Fall fall() {
+        SumOverRanks<std::array<double, 2>> sum;
+        if (particleHandler.contains(bedSize))
+            sum.add({surfaceHeight - (intruder().getPosition().z() - intruder().getRadius()),
+                     intruder().getVelocity().z()});
+        const auto [depth, velocity] = sum.ofAll(*this);
+        return {depth, velocity};
     }
+    [[nodiscard]] double penetration() { return fall().depth; }
 
     void visitState(StateArchive& archive) override {
         archive.value("bedSize", bedSize);

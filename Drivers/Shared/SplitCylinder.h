@@ -44,6 +44,7 @@ public:
     void actionsBeforeTimeStep() override {
         const Vec3D turn(0, 0, shape.rate);
         for (std::size_t k = bed; k < discEnd; ++k) {
+            if (!particleHandler.contains(k)) continue;  // it is on another rank
             auto grain = particleHandler.getObject(k);
             // That of the middle of the step, so that grains stay on their circle.
             const Vec3D velocity = turn.cross(grain.getPosition());

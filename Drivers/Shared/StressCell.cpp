@@ -18,8 +18,10 @@ void StressCell::actionsAfterTimeStep() {
     const MeanStress now = meanStress(*this, volume());
     for (int k = 0; k < 9; ++k) sums.stress[static_cast<std::size_t>(k)] += now.total()(k / 3, k % 3);
     sums.kinetic += now.kinetic.trace() / 3;
-    for (const ObservedContact& seen : interactions())  // of grains with each other
-        if (seen.touching && seen.particle2 != ObservedContact::none) sums.contacts += 2;
+    sums.contacts +=
+        sumOverInteractions(*this, [](const ObservedContact& seen) {  // of grains with each other
+            return seen.touching && seen.particle2 != ObservedContact::none ? 2.0 : 0.0;
+        });
     sums.samples += 1;
 }
 

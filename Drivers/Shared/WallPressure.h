@@ -32,6 +32,7 @@ public:
 
     /// Adds the state after the last step. @param wall number of the cylinder, about z; the floor is at z = 0
     void sample(Scene& scene, int wall) {
+        scene.gather();  // on several ranks, which all call this
         if (samples++ == 0) height = 2 * scene.getCentreOfMass().z();  // of an even bed
         for (const ObservedContact& seen : scene.interactions()) {
             if (seen.wall != wall) continue;

@@ -143,7 +143,6 @@ private:
                                 const Range& range) {
             checkValue("WetWallImpact", field, value, unit, range);
         };
-        const Range poissonRatios{-1, 0.5, false, true};
         require("radius", given.radius, "m", positive);
         require("density", given.density, "kg/m^3", positive);
         require("elastic modulus", given.youngModulus, "Pa", positive);

@@ -56,7 +56,7 @@ public:
         const double kept = std::exp(-this->getTimeStep() / relaxation());
         const double spinKept = std::exp(-this->getTimeStep() / (0.3 * relaxation()));
         const Vec3D spin(0, 0, -0.5 * rate);  // of the flow
-        for (auto&& grain : this->particleHandler) {
+        for (GrainReference grain : this->particleHandler.ownGrains()) {
             const Vec3D flow = this->shearFlowAt(grain.getPosition());
             grain.setVelocity(flow + kept * (grain.getVelocity() - flow));
             grain.setAngularVelocity(spin + spinKept * (grain.getAngularVelocity() - spin));
@@ -64,6 +64,7 @@ public:
         if (this->getNumberOfTimeSteps() % samplePeriod == 0) sample();
     }
     void sample() {
+        this->gather();  // on several ranks
         const Clusters near = clustersWithin(*this, cutOff), joined = clustersOfContacts(*this);
         for (std::size_t k = 0; k < near.ids.size(); ++k) {
             const auto identity = static_cast<std::uint32_t>(near.ids[k]);

@@ -75,13 +75,13 @@ public:
 
     void writeOutput() override {
         const double time = this->getTime();
-        double separation = distance() - options.radius1 - options.radius2;
+        // Also where a contact is listed: when it is, depends on the ranks.
+        const double separation = distance() - options.radius1 - options.radius2;
         double normal = 0, capillary = 0;
         bool bridged = false;
         this->contacts().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
             const ObservedContact seen =
                 this->contacts().observe(this->particleHandler.store(), bucket, contact);
-            separation = seen.separation;
             normal = seen.normalForce;
             capillary = 0.0 - seen.adhesiveForce;  // no negative zero
             bridged = seen.bridged;

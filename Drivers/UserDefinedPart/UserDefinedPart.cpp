@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "Drivers/Shared/CommandLine.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Step/SummaryRows.h"
 
@@ -19,15 +20,24 @@ struct Draught : StepPart {
                                          "the drag is that of single spheres", "take single grains"};
         return {&bodies, 1};
     }
+    /// It needs no grain but the one that it drags.
+    [[nodiscard]] bool actsOnRanks() const override { return true; }
     void prepare(StepContext& step) override {
-        for (GrainReference grain : step.particles) {
+        ExactSum workOfStep;  // J
+        for (GrainReference grain : step.particles.ownGrains()) {
             if (grain.isFixed()) continue;
             const Vec3D before = grain.getVelocity(), slip = air - before;
             const double d = 2 * grain.getRadius(), reynolds = density * slip.norm() * d / viscosity;
             const double drag = 3 * std::numbers::pi * viscosity * d * (1 + 0.15 * std::pow(reynolds, 0.687));
             grain.setVelocity(before - std::expm1(-drag / grain.getMass() * step.length) * slip);
-            work += 0.5 * grain.getMass() * (grain.getVelocity().squaredNorm() - before.squaredNorm());
+            workOfStep.add(0.5 * grain.getMass() *
+                           (grain.getVelocity().squaredNorm() - before.squaredNorm()));
         }
+        work += step.contacts.ranks().sum(workOfStep);
+    }
+    void compareSetUp(StateArchive& archive, StepContext& /*scene*/) override {
+        archive.same("density", density, "kg/m^3"), archive.same("viscosity", viscosity, "Pa s");
+        archive.sameRecord<double>("velocity", toVector(air), "m/s");
     }
     void visitState(StateArchive& archive, StepContext& /*scene*/) override { archive.finite("work", work); }
     void addTo(SummaryRows& rows) const override { rows.addNumber("work of the draught", work, "J"); }

@@ -49,9 +49,11 @@ public:
         const double wallMass = static_cast<double>(wallCount) * mass;
         const double force = push.z() - pressure * width * width;
         rise = (rise + getTimeStep() * force / wallMass) / (1 + 5 * getTimeStep() / inertialTime);
+        const double distance = height();
         for (std::size_t k = 0; k < wallCount; ++k)
-            particleHandler.getObject(k).setVelocity({rate * height(), 0, rise});
-        sums[0].steps += 1, sums[0].shear -= push.x(), sums[0].normal += push.z(), sums[0].height += height();
+            if (particleHandler.contains(k))  // it is on this rank
+                particleHandler.getObject(k).setVelocity({rate * distance, 0, rise});
+        sums[0].steps += 1, sums[0].shear -= push.x(), sums[0].normal += push.z(), sums[0].height += distance;
     }
     void writeOutput() override {
         const auto [steps, shear, normal, height] = std::exchange(sums, {})[0];
@@ -93,14 +95,18 @@ private:
                 added.fixParticle(), added.setVelocity({0, 0, 0});
         }
     }
-    [[nodiscard]] Vec3D pushOnWall() const {
-        Vec3D push = Vec3D::Zero();
-        for (std::size_t k = 0; k < wallCount; ++k) push += contactForceOn(k);
-        return push;
+    // Of all ranks:
+    [[nodiscard]] Vec3D pushOnWall() {
+        return sumOverGrains(*this, [this](const GrainReference& grain) {
+            return grain.getId() < wallCount ? contactForceOn(grain.getId()) : Vec3D(0, 0, 0);
+        });
     }
     [[nodiscard]] double height() {  // m, between the walls' centres
-        return particleHandler.getObject(0).getPosition().z() -
-               particleHandler.getObject(particleHandler.getSize() - 1).getPosition().z();
+        const std::size_t last = particleHandler.getSize() - 1;
+        return sumOverGrains(*this, [last](const GrainReference& grain) {
+            if (grain.getId() == 0) return grain.getPosition().z();
+            return grain.getId() == last ? -grain.getPosition().z() : 0;
+        });
     }
 
     static constexpr std::size_t wallCount = across * across;

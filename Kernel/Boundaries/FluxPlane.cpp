@@ -167,13 +167,19 @@ void FluxPlaneHandler::takeBack() {
     for (Plane& plane : planes) plane.count = plane.before;
 }
 
-void FluxPlaneHandler::visitState(StateArchive& archive) {
+void FluxPlaneHandler::compareSetUp(StateArchive& archive) const {
     archive.same("count", planes.size());
     for (std::size_t k = 0; k < planes.size(); ++k)
         archive.group(std::to_string(k), [&] {
+            archive.sameRecord<double>("normal", planes[k].normal);
+            archive.same("offset", planes[k].offset, "m");
+        });
+}
+
+void FluxPlaneHandler::visitState(StateArchive& archive) {
+    for (std::size_t k = 0; k < planes.size(); ++k)
+        archive.group(std::to_string(k), [&] {
             Plane& plane = planes[k];
-            archive.sameRecord<double>("normal", plane.normal);
-            archive.same("offset", plane.offset, "m");
             archive.value("forwards", plane.count.forwards);
             archive.value("backwards", plane.count.backwards);
             archive.finite("massForwards", plane.count.massForwards);

@@ -65,6 +65,7 @@ public:
                      const std::function<double(std::uint32_t)>& liquidOf, const AllRanks& ranks = {});
     /// The step has failed: what it counted is taken back.
     void takeBack();
+    void compareSetUp(StateArchive& archive) const;
     void visitState(StateArchive& archive);
 
 private:

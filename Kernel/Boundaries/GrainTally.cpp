@@ -50,8 +50,11 @@ GrainTally::Entry GrainTally::all() const {
     return sum;
 }
 
+void GrainTally::compareSetUp(StateArchive& archive) const {
+    archive.same<double>("classBorders", std::span<const double>(borders), "m");
+}
+
 void GrainTally::visitState(StateArchive& archive) {
-    archive.same<double>("classBorders", std::span<const double>(borders));
     std::vector<std::uint64_t> numbers;
     std::vector<double> masses;
     for (const Entry& entry : entries) numbers.push_back(entry.number), masses.push_back(entry.mass);

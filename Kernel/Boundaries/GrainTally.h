@@ -37,6 +37,7 @@ public:
     [[nodiscard]] Entry of(std::size_t species, std::size_t sizeClass) const;
     [[nodiscard]] Entry all() const;
 
+    void compareSetUp(StateArchive& archive) const;
     void visitState(StateArchive& archive);
 
 private:

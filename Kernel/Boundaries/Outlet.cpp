@@ -241,11 +241,11 @@ void OutletHandler::visitArrivals(StateArchive& archive) {
     for (std::size_t k = 0; k < times.size(); ++k) arrivals.push_back({times[k], nexts[k]});
 }
 
-void OutletHandler::visitState(StateArchive& archive) {
+void OutletHandler::compareSetUp(StateArchive& archive) const {
     archive.same("count", outlets.size());
     for (std::size_t k = 0; k < outlets.size(); ++k)
         archive.group(std::to_string(k), [&] {
-            Outlet& outlet = outlets[k];
+            const Outlet& outlet = outlets[k];
             if (outlet.region) {
                 archive.group("region", [&] { outlet.region->visitState(archive); });
             } else {
@@ -255,8 +255,13 @@ void OutletHandler::visitState(StateArchive& archive) {
             archive.same("leastAge", outlet.leastAge, "s");
             archive.same("hasCondition", static_cast<bool>(outlet.condition), {},
                          "a restart file cannot keep the function of setCondition(), so set it as it was");
-            outlet.tally.visitState(archive);
+            outlet.tally.compareSetUp(archive);
         });
+}
+
+void OutletHandler::visitState(StateArchive& archive) {
+    for (std::size_t k = 0; k < outlets.size(); ++k)
+        archive.group(std::to_string(k), [&] { outlets[k].tally.visitState(archive); });
     if (longestAge > 0) archive.group("arrivals", [&] { visitArrivals(archive); });
 }
 

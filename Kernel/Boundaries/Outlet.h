@@ -84,6 +84,7 @@ public:
     /// RunError where the scene has become shorter than a region.
     std::vector<double> letOut(ParticleHandler& particles, BodyHandler& bodies, ContactSystem& contacts,
                                const PeriodicBox& periodic, double time, int threads);
+    void compareSetUp(StateArchive& archive) const;
     void visitState(StateArchive& archive);
 
 private:

@@ -140,11 +140,11 @@ void Spray::check(std::size_t number) const {
         requireResolved(fmt::format("spray {}", number), "place", place, radius);
 }
 
-void Spray::visitState(StateArchive& archive) const {
+void Spray::compareSetUp(StateArchive& archive) const {
     archive.same("shape", static_cast<int>(shape));
-    archive.sameRecord<double>("middle", middle);
-    archive.sameRecord<double>("edge1", edge1);
-    archive.sameRecord<double>("edge2", edge2);
+    archive.sameRecord<double>("middle", middle, "m");
+    archive.sameRecord<double>("edge1", edge1, "m");
+    archive.sameRecord<double>("edge2", edge2, "m");
     archive.sameRecord<double>("direction", direction);
     archive.same("angle", angle, "rad");
     archive.same("flow", flowRate, "m^3/s");

@@ -69,7 +69,7 @@ public:
 
     /// Throws InputError if something is not set. @param number of the spray in its scene
     void check(std::size_t number) const;
-    void visitState(StateArchive& archive) const;
+    void compareSetUp(StateArchive& archive) const;
 
 private:
     enum class Shape { None, Rain, FlatFan, Cone };

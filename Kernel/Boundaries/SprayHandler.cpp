@@ -223,11 +223,14 @@ void SprayHandler::addTo(LiquidLedger& ledger) const {
     ledger.lost = lost;
 }
 
-void SprayHandler::visitState(StateArchive& archive, const GrainFilms& films) {
-    unit = films.quantum();
+void SprayHandler::compareSetUp(StateArchive& archive) const {
     archive.same("count", sprays.size());
     for (std::size_t k = 0; k < sprays.size(); ++k)
-        archive.group(std::to_string(k), [&] { sprays[k].visitState(archive); });
+        archive.group(std::to_string(k), [&] { sprays[k].compareSetUp(archive); });
+}
+
+void SprayHandler::visitState(StateArchive& archive, const GrainFilms& films) {
+    unit = films.quantum();
     std::size_t had = counts.size();
     archive.column<std::uint64_t>("emitted", counts);
     archive.require(counts.size() == had, "emitted", "has not one number for each spray");

@@ -76,6 +76,7 @@ public:
     /// They fly.
     void advance(const SprayStep& step);
     void addTo(LiquidLedger& ledger) const;
+    void compareSetUp(StateArchive& archive) const;
     void visitState(StateArchive& archive, const GrainFilms& films);
 
     static constexpr std::size_t mostDroplets = 10'000'000;  // in flight

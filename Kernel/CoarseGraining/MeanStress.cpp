@@ -69,7 +69,7 @@ MeanStress meanStress(const Scene& scene, double volume) {
         kinetic.add(own * fluctuation, fluctuation);
     });
     const BodyArms arms(grains);
-    for (const ObservedContact& seen : scene.interactions()) {
+    for (const ObservedContact& seen : scene.ownInteractions()) {
         const Vector<double> pull = seen.adhesiveForce * seen.normal(), branch = -arms.shiftOf(seen);
         capillary.add(pull, branch);
         (seen.touching ? contact : viscous).add(seen.force - pull, branch);

@@ -4,6 +4,7 @@
 #include <array>
 #include <tuple>
 
+#include "Kernel/Contacts/EventsOfRanks.h"
 #include "Kernel/Walls/WallHandler.h"
 #include "Kernel/Walls/WallImages.h"
 
@@ -97,16 +98,30 @@ void ContactEvents::finish() {
     for (const ContactEvent& event : events) sums.add(event.kind);
 }
 
+/// Each event is heard on one rank, so that those of one contact stay as they happened.
+static std::vector<ContactEvent> heardByAll(const std::vector<ContactEvent>& own, const AllRanks& ranks) {
+    std::vector<ContactEvent> all = ranks.gather(own);
+    std::ranges::stable_sort(all, {}, contactOf);
+    return all;
+}
+
+std::vector<ContactEvent> eventsOfAll(const ContactEvents& own, const AllRanks& ranks) {
+    return heardByAll(own.ofStep(), ranks);
+}
+
+ContactEventCounts countsOfAll(const ContactEvents& own, const AllRanks& ranks) {
+    ContactEventCounts all = own.counts();
+    for (std::uint64_t* const sum :
+         {&all.touchesBegun, &all.touchesEnded, &all.bridgesFormed, &all.bridgesRuptured})
+        *sum = ranks.sum(*sum);
+    return all;
+}
+
 void ContactEvents::gather(const AllRanks& ranks) {
     if (!listening) return;
     ownBefore = events;
-    for (std::vector<ContactEvent>* const list : {&events, &early}) {
-        *list = ranks.gather(*list);
-        std::ranges::stable_sort(*list, {}, contactOf);
-    }
-    for (std::uint64_t* const sum :
-         {&sums.touchesBegun, &sums.touchesEnded, &sums.bridgesFormed, &sums.bridgesRuptured})
-        *sum = ranks.sum(*sum);
+    for (std::vector<ContactEvent>* const list : {&events, &early}) *list = heardByAll(*list, ranks);
+    sums = countsOfAll(*this, ranks);
 }
 
 void ContactEvents::leaveToFirstRank() {

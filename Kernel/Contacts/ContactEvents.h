@@ -38,6 +38,14 @@ public:
     }
     /// Events since the last step belong to the next one.
     void leaveForNextStep();
+    /// Those that the function finds belong to the next step; those of the last one stay.
+    template <class Function>
+    void forNextStep(Function&& function) {
+        std::vector<ContactEvent> told = std::exchange(events, {});
+        function();
+        leaveForNextStep();
+        events = std::move(told);
+    }
     /// Called before and after the forces of a bucket; after() also gives the columns of contacts that
     /// begin to act the numbers with which they start.
     void before(const ContactStore& store, const Bucket& bucket) {

@@ -65,7 +65,7 @@ struct PairGeometry {
     const RotationRecord* rotation;
     const ContactBlock& block;
     const PeriodicBox& box;
-    const HeldBits* held;  // of all grains; null where none is held along some axes
+    const HeldInContacts* held;  // null where no grain is held
 
     Vector<Pack> shift;          // m, centre 2 - centre 1
     Vector<Pack> imageVelocity;  // m/s, where images move: of body 2 against the image that is met
@@ -74,8 +74,8 @@ struct PairGeometry {
 
     [[gnu::always_inline]] PairGeometry(const TranslationRecord* t, const RotationRecord* r,
                                         const ContactBlock& b, const PeriodicBox& periodic,
-                                        const HeldBits* heldAxes = nullptr)
-        : translation(t), rotation(r), block(b), box(periodic), held(heldAxes) {
+                                        const HeldInContacts* heldGrains = nullptr)
+        : translation(t), rotation(r), block(b), box(periodic), held(heldGrains) {
         auto [x1, y1, z1, r1] = loadRecords<4>(numbers(t), 8, b.first.data());
         auto [x2, y2, z2, r2] = loadRecords<4>(numbers(t), 8, b.second.data());
         shift = {x2 - x1, y2 - y1, z2 - z1};
@@ -138,15 +138,15 @@ struct PairGeometry {
     }
 
 private:
-    /// As completeFree(), with the masses of grains that are held along axes. It makes the geometry anew: a
-    /// call in the middle of it costs all scenes 1 % (what lies in registers would have to be put away).
+    /// As completeFree(), with the masses of contacts with grains that are held. It makes the geometry anew:
+    /// a call in the middle of it costs all scenes 1 % (what lies in registers would have to be put away).
     [[gnu::noinline, gnu::cold]] static ContactGeometry<Pack> completeHeld(
         const TranslationRecord* translation, const RotationRecord* rotation, const ContactBlock& block,
-        const PeriodicBox& box, const HeldBits* held) {
+        const PeriodicBox& box, const HeldInContacts* held) {
         ContactGeometry<Pack> g = PairGeometry(translation, rotation, block, box).completeFree();
         const Pack im1 = loadRecords<4>(numbers(translation) + 4, 8, block.first.data())[3],
                    im2 = loadRecords<4>(numbers(translation) + 4, 8, block.second.data())[3];
-        const HeldMasses masses = heldMasses(held, block.first, &block.second, g.normal.x, g.normal.y,
+        const HeldMasses masses = heldMasses(*held, block.first, &block.second, g.normal.x, g.normal.y,
                                              g.normal.z, im1, im2, g.inverseMass, g.effectiveMass);
         g.inverseMass = masses.inverse;
         g.effectiveMass = masses.effective;
@@ -197,19 +197,20 @@ struct WallGeometry {
     const ContactBlock& block;
     const WallPointColumns& points;
     const Vector<double> wallSpin;  // rad/s
-    const HeldBits* held;           // as of PairGeometry
+    const HeldInContacts* held;     // as of PairGeometry
 
     Pack radius;
     Pack distance;  // m, from the centre to the wall
 
     WallGeometry(const TranslationRecord* t, const RotationRecord* r, const ContactBlock& b,
-                 const WallPointColumns& p, const Vector<double>& spin, const HeldBits* heldAxes = nullptr)
+                 const WallPointColumns& p, const Vector<double>& spin,
+                 const HeldInContacts* heldGrains = nullptr)
         : translation(t),
           rotation(r),
           block(b),
           points(p),
           wallSpin(spin),
-          held(heldAxes),
+          held(heldGrains),
           distance(Pack::load(p.distance.lane.data())) {
         radius = loadRecords<4>(reinterpret_cast<const double*>(t), 8, b.first.data())[3];
     }
@@ -252,11 +253,11 @@ private:
     /// As of PairGeometry.
     [[gnu::noinline, gnu::cold]] static ContactGeometry<Pack> completeHeld(
         const TranslationRecord* translation, const RotationRecord* rotation, const ContactBlock& block,
-        const WallPointColumns& points, Vector<double> wallSpin, const HeldBits* held) {
+        const WallPointColumns& points, Vector<double> wallSpin, const HeldInContacts* held) {
         ContactGeometry<Pack> g = WallGeometry(translation, rotation, block, points, wallSpin).completeFree();
         const Pack im =
             loadRecords<4>(reinterpret_cast<const double*>(translation) + 4, 8, block.first.data())[3];
-        const HeldMasses masses = heldMasses(held, block.first, nullptr, g.normal.x, g.normal.y, g.normal.z,
+        const HeldMasses masses = heldMasses(*held, block.first, nullptr, g.normal.x, g.normal.y, g.normal.z,
                                              im, Pack(0), g.inverseMass, g.effectiveMass);
         g.inverseMass = masses.inverse;
         g.effectiveMass = masses.effective;

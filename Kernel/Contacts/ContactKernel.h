@@ -72,6 +72,7 @@ public:
     /// The overlaps and capillary numbers of the contacts that this kernel has computed.
     OverlapWatch overlaps;
     CapillaryWatch capillaryNumbers;
+    double springsAhead = 0;  // s, as of ContactTask
 
     /// @return false if the block needs memory first; it is marked then
     /// @param geometryOf (block) its geometry, which is made in here: what would come from outside, or be
@@ -149,7 +150,10 @@ public:
                          PullsInContact<Normal> ? bridged | touching : bridged);
             if constexpr (ShapedGeometry<Geometry>) geometry.writeArms(memory, block);
         }
-        if constexpr (Creeps<Normal>) creep(block, normal.contact, touching);
+        if constexpr (Creeps<Normal>)
+            if (ledger) [[unlikely]]
+                writeCreep(block, copyOf(normal.contact.overlap), copyOf(normal.contact.effectiveRadius),
+                           copyOf(normal.contact.effectiveMass), touching, normal.creep);
         Vector<Pack> tangential = zero(), lastTorque = zero();
         if constexpr (resists >= BridgeResists::Rolling) lastTorque = loadTorques(block);
         if constexpr (Friction::acts) {
@@ -184,6 +188,11 @@ private:
         Vector<Pack> leverless;  // N, n x F; zero without friction
         Pack normalForce;        // N
     };
+    /// What eight contacts remember before and after their creep in the step.
+    struct Creep {
+        NormalHistory<Pack> before, after;
+    };
+    struct NoCreep {};
     struct NormalPart {
         Pack repulsion;  // N, elastic and damping
         Pack elastic;    // N
@@ -198,6 +207,7 @@ private:
         SampleTiming<Pack> timing;
         Mask closing;  // the touch ends in the step that comes
         Mask snaps;    // the neck does, of an attraction that jumps at its ends
+        [[no_unique_address]] std::conditional_t<Creeps<Normal>, Creep, NoCreep> creep;
     };
 
     /// The normal force with the approach speed at the end of the step. Grains carry the predicted velocity v
@@ -216,11 +226,16 @@ private:
         part.lever = part.contact.overlap;
         if constexpr (resists >= BridgeResists::Sliding) part.lever = g.lever;
         auto history = memory.normalHistory.load<NormalHistory>(block);
+        if constexpr (Creeps<Normal>) {
+            part.creep.before = history;
+            Normal::creep(laws.normal, part.contact, Pack(timeStep), history);
+            part.creep.after = history;
+        }
         NormalForce<Pack> force = normalForce<Normal>(laws.normal, part.contact, history);
         memory.normalHistory.store<NormalHistory>(block, selectColumns<NormalHistory>(touching, history));
         force.damping = select(touching, force.damping, Pack(0));
 
-        const Pack halfStep = Pack(0.5 * implicitStep) * g.inverseMass;
+        const Pack halfStep = Pack(implicitNeighbours<Adhesion> * 0.5 * implicitStep) * g.inverseMass;
         const Pack predicted = dot(g.velocity, g.normal);
         Pack known = -adhesive;  // N, the repulsion that needs no speed, without the elastic one
         if constexpr (resists != BridgeResists::Nothing) {
@@ -292,16 +307,6 @@ private:
         return part;
     }
 
-    /// Brings what eight contacts remember on by the step, at their overlaps.
-    void creep(std::size_t block, const Contact<Pack>& contact, Mask touching) {
-        auto history = memory.normalHistory.load<NormalHistory>(block);
-        Normal::creep(laws.normal, contact, Pack(timeStep), history);
-        memory.normalHistory.store<NormalHistory>(block, selectColumns<NormalHistory>(touching, history));
-        if (ledger) [[unlikely]]
-            writeCreep(block, copyOf(contact.overlap), copyOf(contact.effectiveRadius),
-                       copyOf(contact.effectiveMass), touching);
-    }
-
     /// The ways (m) of tangential springs that are at their place at the force, and so move for the time from
     /// the last force (or from the start of the touch) with the velocity in the middle of that time: the
     /// velocity that grains carry, less the acceleration for half the time. For springs without dashpots that
@@ -348,6 +353,11 @@ private:
                         .timeBefore = timeStep * select(begins, normal.timing.before, Pack(before)),
                         .timeAfter = Pack(timeStep * (1 - before)),
                         .response = response};
+        if (springsAhead > 0) [[unlikely]] {
+            const Pack ahead = springsAhead;
+            slip.timeBefore = select(maskFromBits(store.states[number].touching), -ahead, Pack(0));
+            slip.timeAfter = ahead;
+        }
         auto history = memory.history.load<History>(block);
         Vector<Pack> normalShift;
         if constexpr (ShapedGeometry<Geometry>) normalShift = geometry.normalShift();
@@ -407,7 +417,7 @@ private:
     Vector<Pack> computeDrag(std::size_t block, const ContactGeometry<Pack>& g,
                              const Vector<Pack>& lastLeverless, const Vector<Pack>& lastTorque, Mask bridged,
                              const BridgeResistance<Pack>& resistance, const Vector<Pack>& friction) {
-        const Pack response = Pack(3.5 * 0.5 * implicitStep) * g.inverseMass;
+        const Pack response = Pack(implicitNeighbours<Adhesion> * 3.5 * 0.5 * implicitStep) * g.inverseMass;
         const Vector<Pack> sideways = fma(-dot(g.velocity, g.normal), g.normal, g.velocity);
         const Vector<Pack> lever = fma(-response, lastLeverless, g.spinLever);
         Vector<Pack> own = zero();  // N m, of friction
@@ -591,14 +601,19 @@ private:
     }
     /// Writes what the creep of the law has taken of the elastic energy.
     [[gnu::noinline, gnu::cold]] void writeCreep(std::size_t block, Pack overlap, Pack effectiveRadius,
-                                                 Pack effectiveMass, Mask touching) {
+                                                 Pack effectiveMass, Mask touching, Creep creep) {
         for (int k = 0; k < Pack::lanes; ++k) {
             if (!laneOf(touching, k)) continue;
-            const std::size_t at = block * Pack::lanes + static_cast<std::size_t>(k);
-            ContactSample& sample = memory.energies[at].now;
-            const double left = elasticEnergyAt(at, {overlap[k], effectiveRadius[k], effectiveMass[k]});
-            sample.creepLoss = sample.elasticEnergy - left;
-            sample.elasticEnergy = left;
+            NormalHistory<double> before{}, after{};
+            forEachNumber<NormalHistory>(
+                [&](std::size_t c, const Pack& was, const Pack& is) {
+                    reinterpret_cast<double*>(&before)[c] = was[k];
+                    reinterpret_cast<double*>(&after)[c] = is[k];
+                },
+                creep.before, creep.after);
+            const Contact<double> contact{overlap[k], effectiveRadius[k], effectiveMass[k]};
+            memory.energies[block * Pack::lanes + static_cast<std::size_t>(k)].now.creepLoss =
+                Normal::creepLoss(laws.normal, contact, before, after);
         }
     }
     [[gnu::noinline]] void writeSample(std::size_t block, SliderSample ContactSample::*part, Pack forceX,

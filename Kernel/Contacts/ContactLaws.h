@@ -13,6 +13,7 @@
 #include "Kernel/Contacts/OverlapWatch.h"
 #include "Kernel/Particles/GrainSpecies.h"
 #include "Kernel/Species/Bodies.h"
+#include "Kernel/Species/ContactSpot.h"
 #include "Kernel/Species/DomainLimit.h"
 #include "Kernel/Species/Law.h"
 #include "Kernel/Species/Stiffness.h"
@@ -24,7 +25,9 @@ class ContactStore;
 class GrainShapes;
 struct Bucket;
 struct PeriodicBox;
+struct SetValues;
 class HeldBits;
+struct HeldInContacts;
 struct TranslationRecord;
 struct RotationRecord;
 
@@ -45,7 +48,7 @@ struct ContactTask {
     const TranslationRecord* translation;
     const RotationRecord* rotation;
     const Vector<double>* acceleration;  // m/s^2, of the last step
-    const HeldBits* held;                // null where no grain is held along some axes
+    const HeldInContacts* held;          // null where no grain is held
     const PeriodicBox& box;
     std::size_t bucket;       // its number
     std::size_t begin, end;   // blocks
@@ -58,6 +61,9 @@ struct ContactTask {
     OverlapWatch* overlaps;
     CapillaryWatch* capillaryNumbers;
     OwnTotals totals;
+    /// s, of a step of no length, between two steps: tangential springs that are kept ahead of their contacts
+    /// are so by this time, and are left so; those of touches that have not been seen before begin now.
+    double springsAhead = 0;
 };
 
 /// A number of a law, with its name and unit.
@@ -97,6 +103,8 @@ public:
     /// @param changedInRun whether values have been changed since the run began
     virtual void visitState(StateArchive& archive, bool& changedInRun) = 0;
     [[nodiscard]] virtual std::vector<FieldValue> fields(int a, int b) const = 0;
+    /// Of each species, and of each pair that the driver has given values of its own.
+    [[nodiscard]] virtual std::vector<SetValues> setValues() = 0;
 
     [[nodiscard]] virtual double range(int a, int b, const Bodies& bodies) const = 0;
     [[nodiscard]] virtual std::optional<std::string> objection(int a, int b, const Bodies& bodies) const = 0;
@@ -128,6 +136,10 @@ public:
     [[nodiscard]] virtual const ContactLaws& ofBucket(std::size_t /*bucket*/) const { return *this; }
     /// The forces of a part of a bucket; false if a block needs memory first: it is marked then.
     virtual bool compute(const ContactTask& task) const = 0;
+
+    /// Where the bodies touch at an overlap (m).
+    [[nodiscard]] virtual ContactSpot contactSpot(int a, int b, const Bodies& bodies,
+                                                  double overlap) const = 0;
 };
 
 /// The laws between two species.

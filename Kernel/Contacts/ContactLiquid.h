@@ -186,6 +186,8 @@ public:
     [[nodiscard]] bool giveToWall(const ContactLaws& laws, std::size_t wall, double volume);
     /// Liquid of droplets (m^3, a multiple of the quantum) evaporates.
     void addEvaporated(double volume) { evaporated += volume; }
+    /// A touch of the grain has begun or ended between two steps: in the next one its film may be drawn.
+    void lookAt(std::uint32_t identity) { looked.push_back(identity); }
     /// A contact is about to end because a body is removed or changed.
     void release(ContactStore& store, ParticleStore& grains, std::uint32_t contact);
     /// Values of species have changed: what bridges hold above V_max goes to films.

@@ -80,7 +80,8 @@ void ContactList::listInParts(std::size_t grainCount, Function&& function) {
     for (Groups& part : parts)
         for (Group& found : part) {
             Group& group = groupOf(groups, found.bucket.species1, found.bucket.species2, found.bucket.wall);
-            if (group.contacts.empty()) group.contacts.swap(found.contacts);
+            // Not empty(): after it, g++ 14 warns of a copy to the memory in front of a vector.
+            if (group.contacts.capacity() == 0) group.contacts.swap(found.contacts);
             else group.contacts.insert(group.contacts.end(), found.contacts.begin(), found.contacts.end());
             found.contacts = {};
         }
@@ -121,7 +122,9 @@ bool ContactList::nearEnough(const Grains& grains, std::uint32_t i, std::uint32_
 }
 
 void ContactList::addPair(Groups& all, const Grains& grains, std::uint32_t i, std::uint32_t j) const {
-    if (grains.translation[i].inverseMass == 0 && grains.translation[j].inverseMass == 0) return;
+    if (!listsOfHeld.pairs && grains.translation[i].inverseMass == 0 &&
+        grains.translation[j].inverseMass == 0)
+        return;
     if (std::min(i, j) >= grains.ownSize()) return;
     if (grains.bodies.areJoinedAt(i, j)) return;
     const std::size_t low = std::min(grains.species[i], grains.species[j]);
@@ -146,7 +149,7 @@ void ContactList::findWallContacts(const Grains& grains, const RememberedContact
                                    std::uint32_t i, Groups& all, std::vector<std::uint32_t>& parts) const {
     const Wall& wall = walls.getObject(w);
     const TranslationRecord& grain = grains.translation[i];
-    if (grain.inverseMass == 0) return;
+    if (grain.inverseMass == 0 && !listsOfHeld.atWall(w)) return;
     // A bridge may pass on to the next part of a wall, or to another wall: then all within its range are
     // listed.
     bool far = laws.actsApart;

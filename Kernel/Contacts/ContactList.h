@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/HeldContacts.h"
 #include "Kernel/Contacts/NeighbourSearch.h"
 
 namespace pendular {
@@ -28,10 +29,10 @@ public:
 
     /// @param oldBridges bodies and laws are as they were when bridges were prepared; @param listReach m, at
     /// which bodies are listed where their range is shorter; @param filmsReach m, the same, but no farther
-    /// than their range
+    /// than their range; @param ofHeld contacts of bodies that are held along all axes
     ContactList(const ContactLaws& contactLaws, const WallHandler& wallHandler, const PeriodicBox& box,
                 double skinWidth, int threadCount, bool oldBridges = true, double listReach = 0,
-                double filmsReach = 0)
+                double filmsReach = 0, const ListedOfHeld& ofHeld = {})
         : laws(contactLaws),
           walls(wallHandler),
           periodic(box),
@@ -39,7 +40,8 @@ public:
           threads(threadCount),
           keepsBridges(oldBridges),
           reachOfAll(listReach),
-          reachOfFilms(filmsReach) {}
+          reachOfFilms(filmsReach),
+          listsOfHeld(ofHeld) {}
 
     /// Sorts the grains in space and lists their contacts.
     /// @param old those that were taken or read when the grains were where they are, whose memory the store
@@ -108,6 +110,7 @@ private:
     int threads;
     bool keepsBridges;
     double reachOfAll, reachOfFilms;
+    ListedOfHeld listsOfHeld;
     std::optional<NeighbourSearch> found;
     std::vector<std::uint32_t> formerPlace;  // of the grain at each place
     Groups groups;

@@ -10,6 +10,7 @@
 #include "Kernel/Contacts/ContactList.h"
 #include "Kernel/Contacts/ContactMigration.h"
 #include "Kernel/Contacts/FacePassage.h"
+#include "Kernel/Contacts/HeldMasses.h"
 #include "Kernel/Contacts/WakeBlock.h"
 #include "Kernel/Contacts/WallContacts.h"
 #include "Kernel/Math/ExactSum.h"
@@ -34,6 +35,8 @@ void ContactSystem::prepare(ContactLaws& contactLaws, const WallHandler& wallHan
     contactEvents.watch(liquid.moves());
     contactEvents.setWalls(wallHandler);
     overlapWatch = OverlapWatch(species->overlapLimit.largest);
+    noteChangedLaws();
+    changedPairs.clear();
     capillaryWatch = {};
 }
 
@@ -128,14 +131,20 @@ RememberedContacts ContactSystem::takeRemembered(const Grains& grains) {
 void ContactSystem::gatherCounts() {
     contactEvents.gather(allRanks);
     liquid.gather();
-    const auto gathered = [&](const auto& watch) {
-        auto all = sharing->ofAll(watch);
-        for (std::size_t q = 1; q < all.size(); ++q) all[0].add(all[q]);
-        return all[0];
-    };
-    overlapWatch = gathered(overlapWatch);
-    capillaryWatch = gathered(capillaryWatch);
+    overlapWatch = overlaps();
+    capillaryWatch = capillaryNumbers();
 }
+
+/// What all ranks have seen, where each has seen what is its own.
+template <class Watch>
+static Watch seenByAll(const Watch& own, GrainSharing* sharing) {
+    if (!sharing || !sharing->areDistributed()) return own;
+    auto all = sharing->ofAll(own);
+    for (std::size_t q = 1; q < all.size(); ++q) all[0].add(all[q]);
+    return all[0];
+}
+OverlapWatch ContactSystem::overlaps() const { return seenByAll(overlapWatch, sharing); }
+CapillaryWatch ContactSystem::capillaryNumbers() const { return seenByAll(capillaryWatch, sharing); }
 
 /// What has been counted so far, or was in a restart file, counts there.
 void ContactSystem::leaveCountsToFirstRank() {
@@ -151,23 +160,6 @@ void ContactSystem::listWithin(Grains& grains, double reach) {
     findWallPoints(grains, 0);
 }
 
-double ContactSystem::renew(Grains& grains, bool hasNewLaws) {
-    double stored = 0;
-    forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
-        if (lastsThroughChange(grains, bucket, contact)) {
-            if (species->resistsMotion) checkGap(grains, bucket, contact);
-            return;
-        }
-        takeForceAway(grains, bucket, contact);
-        stored += endContact(grains, contact);
-    });
-    sumLostForces(grains);
-    if (hasNewLaws) chooseQuantum(grains);
-    listNow(grains, false);
-    liquid.clip(contacts, grains);
-    return stored;
-}
-
 void ContactSystem::listNow(Grains& grains, bool keepsBridges) {
     listAgain(grains, keepsBridges);
     // Contacts of a membrane hand their forces to its corners where they touch it.
@@ -175,37 +167,6 @@ void ContactSystem::listNow(Grains& grains, bool keepsBridges) {
             return bucket.wall >= 0 && wallOf(bucket).membrane();
         }))
         findWallPoints(grains, 0);
-}
-
-/// The bridge of a contact forgets how the bodies moved if a change has put them somewhere else.
-void ContactSystem::checkGap(const Grains& grains, const Bucket& bucket, std::uint32_t contact) {
-    const std::size_t slot = contacts.slotOf(contact);
-    const ObservedContact seen = observe(grains, bucket, contact);
-    const double radius = grains.translation[grains.place[seen.particle1]].radius;
-    ContactNumbers bridge{};
-    contacts.memory.interaction.get(slot, bridge.data());
-    species->checkGap(bucket.species1, bucket.species2, bridge.data(), seen.separation, 1e-12 * radius);
-    contacts.memory.interaction.set(slot, bridge.data());
-}
-
-bool ContactSystem::lastsThroughChange(const Grains& grains, const Bucket& bucket,
-                                       std::uint32_t contact) const {
-    const ContactBlock& block = contacts.blocks[contact / Pack::lanes];
-    const std::size_t lane = contact % Pack::lanes;
-    const std::uint32_t first = block.first[lane], second = block.second[lane];
-    const bool isWall = bucket.wall >= 0;
-    const TranslationRecord& grain = grains.translation[first];
-    if (grain.inverseMass == 0 && (isWall || grains.translation[second].inverseMass == 0)) return false;
-    if (!isWall && grains.bodies.areJoined(grains.identity[first], grains.identity[second])) return false;
-    const int species1 = grains.species[first],
-              species2 = isWall ? wallOf(bucket).getSpeciesIndex() : grains.species[second];
-    const auto number = static_cast<std::size_t>(&bucket - contacts.buckets.data());
-    if (&species->ofPair(species1, species2) != &species->ofBucket(number)) return false;
-    const ObservedContact seen = observe(grains, bucket, contact);
-    const double other = isWall ? infinity : grains.translation[second].radius;
-    double reach = 1e-12 * grain.radius;  // round-off of the separation, which the kernel computes otherwise
-    if (seen.bridged) reach += species->range(species1, species2, {grain.radius, other});
-    return seen.separation < reach;
 }
 
 void ContactSystem::listAgain(Grains& grains, bool keepsBridges, double reach, bool shares) {
@@ -248,6 +209,7 @@ void ContactSystem::finishArrival(Grains& grains) {
     rangeOfAll = std::max(rangeOfAll, allRanks.largest(largestRange(*species, grains)));
     const std::shared_ptr<RememberedContacts> remembered = std::exchange(arriving, nullptr);
     distribute(grains, *remembered, 0);
+    sharing->countAll(grains);
     listAgain(grains, *remembered);
     listedOnRanks(grains);
 }
@@ -257,8 +219,10 @@ std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts& r
     // Films get thicker: not for each drop a new list.
     filmsReach = liquid.formsAtFilms(*species) ? 1.25 * liquid.largestFilmContact(grains) : 0;
     ContactList list(*species, *walls, periodic, skin.width(), threads, keepsBridges,
-                     std::max(reach, largestFilmContactGap()), filmsReach);
+                     std::max(reach, largestFilmContactGap()), filmsReach, ofHeld = askedOfHeld());
+    heldIsNew = false;
     const std::size_t recalled = list.rebuild(grains, contacts, remembered, takesInGrains);
+    renewHeldMasses(grains);
     if (takesInGrains) cells = list.takeSearch();
     if (!contacts.totals.quantum.isChosen()) chooseQuantum(grains);
     wallPatches.listed(contacts, *species, grains);
@@ -280,7 +244,7 @@ double ContactSystem::goThroughFaces(Grains& grains, std::span<const std::uint32
     for (const Bucket& bucket : contacts.buckets)
         if (bucket.wall >= 0 && hasEnds[static_cast<std::size_t>(bucket.wall)])
             findWallPoints(grains, bucket, 0);
-    FacePassage passage(contacts, *walls, *species, hasEnds);
+    FacePassage passage(contacts, *walls, *species, hasEnds, ofHeld);
     passage.leave(grains, places);
     bringBack();
     passage.arrive(grains, filmReach() + skin.width(), time);
@@ -300,7 +264,7 @@ double ContactSystem::goThroughFaces(Grains& grains, std::span<const std::uint32
 void ContactSystem::bringBackPlaced(const Grains& grains, std::span<const std::uint32_t> places,
                                     const std::vector<bool>& hasEnds,
                                     const std::function<void()>& bringBack) {
-    FacePassage passage(contacts, *walls, *species, hasEnds);
+    FacePassage passage(contacts, *walls, *species, hasEnds, ofHeld);
     passage.leave(grains, places);
     bringBack();
     passed = passage.arriveChanged(grains, filmReach() + skin.width(), contacts);
@@ -395,42 +359,6 @@ double ContactSystem::gapAround(const Grains& grains, std::size_t number) const 
     return std::max(smallest, 0.0);
 }
 
-void ContactSystem::takeForceAway(Grains& grains, const Bucket& bucket, std::uint32_t contact) const {
-    const ContactBlock& block = contacts.blocks[contact / Pack::lanes];
-    const std::size_t lane = contact % Pack::lanes, slot = contacts.slotOf(contact);
-    const ContactMemory& memory = contacts.memory;
-    const auto torqueOn = [&](const TranslationRecord& grain, double sign) {
-        const ForceTorqueRecord record = memory.records[slot];
-        Vector<double> torque = (grain.radius - record.halfOverlap) * record.leverless;
-        if (memory.getLayout().hasContactTorque) torque += sign * memory.torques[slot].torque;
-        return torque;
-    };
-    const auto takeFromBody = [&](std::uint32_t number, std::uint32_t place, double sign) {
-        RigidBody& body = grains.bodies[grains.bodies.find(number)];
-        const TranslationRecord& grain = grains.translation[place];
-        const Vector<double> force = sign * contacts.forceOf(contact);
-        body.acceleration -= (1 / body.mass) * force;
-        body.torque -= cross(periodic.nearest(grain.position - body.position), force);
-        if (memory.getLayout().hasTorque) body.torque -= torqueOn(grain, sign);
-    };
-    const auto take = [&](std::uint32_t place, double sign) {
-        if (const std::uint32_t body = grains.bodies.bodyOf(grains.identity[place]);
-            body != RigidBodies::none)
-            takeFromBody(body, place, sign);
-        if (!grains.isFree(place)) return;
-        const TranslationRecord& grain = grains.translation[place];
-        const HeldBits held = grains.heldAt(place);
-        grains.acceleration[place] -= held.partAlong((sign * grain.inverseMass) * contacts.forceOf(contact));
-        if (!memory.getLayout().hasTorque) return;
-        const Vector<double> torque = torqueOn(grain, sign);
-        grains.rotation[place].angularAcceleration -=
-            held.partAbout(grains.rotation[place].inverseInertia * torque);
-    };
-    take(block.first[lane], 1);
-    if (bucket.wall < 0) take(block.second[lane], -1);
-    else loseForce(bucket.wall, -contacts.forceOf(contact));
-}
-
 void ContactSystem::loseForce(int wall, const Vector<double>& force) const {
     if (isRemoving()) lost.push_back({.removal = *removal, .wall = wall, .force = force});
     else walls->getObject(static_cast<std::size_t>(wall)).loseForce(force);
@@ -465,14 +393,18 @@ std::vector<double> ContactSystem::finishRemovals(const Grains& grains) {
         if (one.wall < 0) energies.push_back(one.energy);
         else walls->getObject(static_cast<std::size_t>(one.wall)).loseForce(one.force);
     }
-    if (sharing) sharing->findPlaces(grains);
+    if (sharing) {
+        sharing->findPlaces(grains);
+        sharing->countAll(grains);
+    }
     return energies;
 }
 
 double ContactSystem::endContactsOf(Grains& grains, std::uint32_t place) {
     if (place >= contacts.sides.grainCount()) return 0;
-    forEachActingOf(
-        place, [&](const Bucket& bucket, std::uint32_t contact) { takeForceAway(grains, bucket, contact); });
+    forEachActingOf(place, [&](const Bucket& bucket, std::uint32_t contact) {
+        changeForce(grains, bucket, contact, -1);
+    });
     double stored = 0;
     for (const std::uint32_t side : contacts.sides.of(place))
         stored += endContact(grains, contacts.contactAt(side / 2));
@@ -482,7 +414,7 @@ double ContactSystem::endContactsOf(Grains& grains, std::uint32_t place) {
 
 double ContactSystem::endContactsAtWall(Grains& grains, int wall) {
     forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
-        if (bucket.wall == wall) takeForceAway(grains, bucket, contact);
+        if (bucket.wall == wall) changeForce(grains, bucket, contact, -1);
     });
     ExactSum stored;  // in the order of the list
     for (const Bucket& bucket : contacts.buckets)
@@ -664,6 +596,20 @@ void ContactSystem::compute(const Grains& grains, double step, ContactTiming tim
         contactEvents.after(contacts, contacts.buckets[k], grains.identity);
     }
 }
+bool ContactSystem::computeBlocks(const Grains& grains, double step, ContactTiming timing, std::size_t number,
+                                  std::size_t begin, std::size_t end, const ComputedBy& by) {
+    const Bucket& bucket = contacts.buckets[number];
+    // What another thread has written lies in the cache of its core.
+    const bool asksAhead = (threads > 1 && !helpersRest()) || contacts.bytes() + grains.bytes() > cache;
+    const HeldInContacts held{grains.held.empty() ? nullptr : grains.held.data(),
+                              heldMasses.empty() ? nullptr : heldMasses.data()};
+    return species->compute({contacts, grains.translation.data(), grains.rotation.data(),
+                             grains.acceleration.data(), held.any() ? &held : nullptr, periodic, number,
+                             begin, end,
+                             bucket.wall >= 0 ? wallOf(bucket).angularVelocity() : Vector<double>{0, 0, 0},
+                             step, timing, unlisted, hasSamples(bucket), asksAhead, by.overlaps,
+                             by.capillaryNumbers, by.totals, by.springsAhead});
+}
 /// Blocks are independent: each writes only its own memory and records, and adds to the totals of its
 /// thread. A thread takes so many at once that
 /// it is done with them in some 0.1 ms; with superquadrics, in some ms.
@@ -671,41 +617,17 @@ void ContactSystem::computeBucket(const Grains& grains, double step, ContactTimi
                                   std::size_t number) {
     constexpr std::size_t blocksOfAShare = 128;
     const Bucket& bucket = contacts.buckets[number];
-    // What another thread has written lies in the cache of its core.
-    const bool asksAhead = (threads > 1 && !helpersRest()) || contacts.bytes() + grains.bytes() > cache;
-    const ContactTask task{contacts,
-                           grains.translation.data(),
-                           grains.rotation.data(),
-                           grains.acceleration.data(),
-                           grains.held.empty() ? nullptr : grains.held.data(),
-                           periodic,
-                           number,
-                           bucket.begin,
-                           bucket.end,
-                           bucket.wall >= 0 ? wallOf(bucket).angularVelocity() : Vector<double>{0, 0, 0},
-                           step,
-                           timing,
-                           unlisted,
-                           hasSamples(bucket),
-                           asksAhead,
-                           nullptr,
-                           nullptr,
-                           {}};
     std::atomic<bool> allHaveMemory = true;
     watches.assign(static_cast<std::size_t>(threads), overlapWatch.part());
     capillaryWatches.assign(static_cast<std::size_t>(threads), {});
     // Whether all blocks of a range have memory; what they have seen is added to the watches.
     const auto computeRange = [&](std::size_t begin, std::size_t end, OverlapWatch& overlaps,
                                   CapillaryWatch& capillaryNumbers, int thread) {
-        ContactTask own = task;
-        own.begin = begin;
-        own.end = end;
         OverlapWatch ownOverlaps = overlapWatch.part();
         CapillaryWatch ownCapillaryNumbers;
-        own.overlaps = &ownOverlaps;
-        own.capillaryNumbers = &ownCapillaryNumbers;
+        ComputedBy own{&ownOverlaps, &ownCapillaryNumbers, {}};
         if (contacts.keepsTotals) own.totals = contacts.totals.of(thread);
-        const bool haveMemory = species->compute(own);
+        const bool haveMemory = computeBlocks(grains, step, timing, number, begin, end, own);
         overlaps.add(ownOverlaps);
         capillaryNumbers.add(ownCapillaryNumbers);
         return haveMemory;
@@ -789,6 +711,7 @@ ContactCounts ContactSystem::counts() const {
             all.acting += static_cast<std::size_t>(std::popcount(unsigned{state.touching} | state.bridged));
         }
     }
+    for (std::size_t* const count : {&all.touching, &all.bridged, &all.acting}) *count = allRanks.sum(*count);
     return all;
 }
 

@@ -12,6 +12,7 @@
 #include "Kernel/Contacts/ContactEvents.h"
 #include "Kernel/Contacts/ContactLiquid.h"
 #include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/HeldContacts.h"
 #include "Kernel/Contacts/IdleLanes.h"
 #include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Contacts/ObservedContact.h"
@@ -33,6 +34,17 @@ enum class GatheredOn;
 struct ContactCounts {
     std::size_t touching = 0, bridged = 0;
     std::size_t acting = 0;  // that do one of both
+};
+
+/// What was changed between two steps, by places in the present list.
+struct ChangedBodies {
+    std::vector<bool> grains;  // by place: they were added, or changed in place, size, species or in how held
+    int firstNewWall = 0;      // walls from this number on were added
+};
+/// What follows where contacts have other forces by a change.
+struct ChangedContacts {
+    double given = 0;                   // J, what is stored in them gained; where a ledger is kept
+    std::vector<std::uint32_t> places;  // of grains that have such contacts
 };
 
 /// The contacts of a scene: their list, and the forces of a step.
@@ -71,6 +83,24 @@ public:
     /// whose pair has other laws now, which know nothing of what the contact remembers. Returns the energy
     /// (J) that was stored in what has ended, where a ledger is kept.
     double renew(Grains& grains, bool hasNewLaws);
+    /// The forces of contacts whose bodies or laws were changed between two steps, as of now: a body that was
+    /// put into another one touches it since before the step. What is stored in these contacts is what they
+    /// have now. After renew() or listNow(); the accelerations of grains are left to the caller, those of
+    /// rigid bodies and the forces of walls follow.
+    /// @param step s, of the step that comes
+    ChangedContacts computeChanged(Grains& grains, const ChangedBodies& changed, double step,
+                                   ContactTiming timing);
+    /// Which contacts of bodies that are held along all axes are listed; asked for from the next list on.
+    void setHeldContacts(HeldContacts which) {
+        heldIsNew |= which != heldContacts;
+        heldContacts = which;
+    }
+    [[nodiscard]] HeldContacts getHeldContacts() const { return heldContacts; }
+    /// A part of the step needs them: all are listed, unless the scene has None.
+    void askForHeldContacts() { partsNeedHeld = true; }
+    [[nodiscard]] const ListedOfHeld& listedOfHeld() const { return ofHeld; }
+    /// Whether others are asked for than are listed.
+    [[nodiscard]] bool needsOtherHeld(const Grains& grains);
     /// Brings grains back into a periodic scene whose walls have ends that were put outside between two
     /// steps: their contacts at walls go on at what the walls have behind the face. Before renew().
     /// @param places of these grains; @param hasEnds of each wall; @param bringBack changes their positions
@@ -169,14 +199,18 @@ public:
     /// The memory (bytes) that the contacts take.
     [[nodiscard]] std::size_t bytes() const { return contacts.bytes(); }
     [[nodiscard]] std::size_t rebuildCount() const { return rebuilds; }
-    /// The overlaps of all contacts since the scene began.
-    [[nodiscard]] const OverlapWatch& overlaps() const { return overlapWatch; }
+    /// The overlaps of all contacts since the scene began; on several ranks those of all, which call this
+    /// together.
+    [[nodiscard]] OverlapWatch overlaps() const;
+    /// Those that this rank has seen.
+    [[nodiscard]] const OverlapWatch& ownOverlaps() const { return overlapWatch; }
     /// Takes the largest overlap to come, over the effective radius: see OverlapWatch::expect().
     void expectOverlaps(double largest) { overlapWatch.expect(largest); }
-    [[nodiscard]] const CapillaryWatch& capillaryNumbers() const { return capillaryWatch; }
+    /// On several ranks of all, as overlaps().
+    [[nodiscard]] CapillaryWatch capillaryNumbers() const;
 
     // Of the last step.
-    /// On several ranks, those that count here; sumOverRanks() of a scene has all of them.
+    /// On several ranks those of all, which call this together.
     [[nodiscard]] ContactCounts counts() const;
     [[nodiscard]] bool touches(std::size_t contact) const { return contacts.touches(contact); }
     [[nodiscard]] bool isBridged(std::size_t contact) const { return contacts.isBridged(contact); }
@@ -379,18 +413,34 @@ private:
     void gatherCounts();
     void leaveCountsToFirstRank();
     double endContact(Grains& grains, std::uint32_t contact);
-    /// The accelerations of its bodies lose the force of a contact that ends between two steps: it does not
-    /// act in the first half of the next one. Those of rigid bodies alike.
-    void takeForceAway(Grains& grains, const Bucket& bucket, std::uint32_t contact) const;
     void tellFilms(Grains& grains) const;
     void loseForce(int wall, const Vector<double>& force) const;
-    [[nodiscard]] bool lastsThroughChange(const Grains& grains, const Bucket& bucket,
-                                          std::uint32_t contact) const;
+    /// The accelerations of its bodies, and of the rigid bodies that they are part of, gain or lose the force
+    /// of a contact that is changed or ends between two steps: what acts in the first half of the next one.
+    /// @param share 1 or -1
+    void changeForce(Grains& grains, const Bucket& bucket, std::uint32_t contact, double share) const;
+    void renewHeldMasses(const Grains& grains);
+    [[nodiscard]] ListedOfHeld askedOfHeld() const;
+    void computeAmong(const Grains& grains, const std::vector<bool>& isChanged, double step,
+                      ContactTiming timing);
+    void noteChangedLaws();
+    [[nodiscard]] std::vector<bool> contactsOf(const ChangedBodies& changed) const;
+    [[nodiscard]] bool lastsThroughChange(const Grains& grains, const Bucket& bucket, std::uint32_t contact,
+                                          const ListedOfHeld& asked) const;
     void checkGap(const Grains& grains, const Bucket& bucket, std::uint32_t contact);
     /// m, the largest gap at which bridges of a fixed volume form.
     [[nodiscard]] double largestFilmContactGap() const;
     [[nodiscard]] double gapAround(const Grains& grains, std::size_t number) const;
     [[nodiscard]] std::size_t firstWallBucket() const;
+    struct ComputedBy {
+        OverlapWatch* overlaps;
+        CapillaryWatch* capillaryNumbers;
+        OwnTotals totals;
+        double springsAhead = 0;  // s, as of ContactTask
+    };
+    /// Of a bucket; false if one needs memory first.
+    bool computeBlocks(const Grains& grains, double step, ContactTiming timing, std::size_t bucket,
+                       std::size_t begin, std::size_t end, const ComputedBy& by);
     void compute(const Grains& grains, double step, ContactTiming timing, std::size_t first, std::size_t end);
     void computeBucket(const Grains& grains, double step, ContactTiming timing, std::size_t number);
     void wake(std::size_t block, const Bucket& bucket, const Grains& grains);
@@ -450,6 +500,14 @@ private:
     CapillaryWatch capillaryWatch;
     std::vector<OverlapWatch> watches;  // of each thread
     std::vector<CapillaryWatch> capillaryWatches;
+    HeldContacts heldContacts = HeldContacts::WhereAsked;
+    bool partsNeedHeld = false, heldIsNew = false;
+    ListedOfHeld ofHeld;                         // in the present list
+    std::vector<double> heldMasses;              // kg, of all grains; none where no contacts of held ones are
+    std::vector<std::vector<double>> lawValues;  // of each pair of species, as they were prepared
+    // Since computeChanged() was called last:
+    std::vector<bool> changedPairs;  // of species, as of lawValues
+    std::vector<bool> changedWalls;  // that have another species
 };
 
 }  // namespace pendular

@@ -78,9 +78,10 @@ std::vector<FacePassage::Seen> FacePassage::allSeenAt(const Grains& grains, std:
 
 void FacePassage::arrive(const Grains& grains, double reach, double time) {
     for (Passing& passing : grainsThatPass) {
-        if (grains.translation[passing.place].inverseMass == 0) continue;  // held grains touch no walls
+        const bool isHeld = grains.translation[passing.place].inverseMass == 0;
         for (std::uint32_t wall = 0; wall < walls.getSize(); ++wall)
-            if (walls.getObject(wall).isRepeated()) goOnAtImages(grains, passing, wall);
+            if (isHeld && !listsOfHeld.atWall(wall)) continue;
+            else if (walls.getObject(wall).isRepeated()) goOnAtImages(grains, passing, wall);
             else if (isFollowed[wall] && !findPartners(grains, passing, wall, reach))
                 throw RunError(fmt::format(
                     "At time {:.6g} s {} goes through a face of the periodic scene where wall {} is "

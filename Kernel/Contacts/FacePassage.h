@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "Kernel/Contacts/HeldContacts.h"
 #include "Kernel/Contacts/RememberedContacts.h"
 #include "Kernel/Walls/WallHandler.h"
 
@@ -18,9 +19,10 @@ public:
 
     /// @param hasEnds of each wall: whether it is not the same after any shift along the periods; the others
     /// keep their contacts as they are
+    /// @param ofHeld contacts of held grains that are listed
     FacePassage(const ContactStore& contacts, const WallHandler& wallHandler, const ContactLaws& contactLaws,
-                const std::vector<bool>& hasEnds)
-        : store(contacts), walls(wallHandler), laws(contactLaws), isFollowed(hasEnds) {}
+                const std::vector<bool>& hasEnds, const ListedOfHeld& ofHeld)
+        : store(contacts), walls(wallHandler), laws(contactLaws), isFollowed(hasEnds), listsOfHeld(ofHeld) {}
 
     /// Notes what the grains at these places see, before they are brought back and when the points of the
     /// walls have been found.
@@ -76,6 +78,7 @@ private:
     const WallHandler& walls;
     const ContactLaws& laws;
     const std::vector<bool>& isFollowed;
+    const ListedOfHeld& listsOfHeld;
     std::vector<Passing> grainsThatPass;
     std::vector<std::uint32_t> contactsToEnd;
     bool meetsWalls = false;

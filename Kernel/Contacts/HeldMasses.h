@@ -10,6 +10,21 @@
 
 namespace pendular {
 
+/// What contacts need to know of grains that are held.
+struct HeldInContacts {
+    const HeldBits* axes = nullptr;  // of all grains; null where none is held along some axes
+    /// kg, of all grains; null unless contacts between bodies that are held along all axes are listed
+    const double* masses = nullptr;
+
+    [[nodiscard]] bool any() const { return axes != nullptr || masses != nullptr; }
+};
+
+/// The mass (kg) of a contact between two bodies whose motion is prescribed, for dashpots that are made for a
+/// coefficient of restitution: as if both were free. @param second 0 at a wall
+inline double massOfHeldPair(double first, double second) {
+    return second > 0 ? first * second / (first + second) : first;
+}
+
 /// The masses of a contact with a grain that is held along axes.
 struct HeldMass {
     double inverse;    // 1/kg: how much a force along the normal moves both against each other
@@ -28,20 +43,25 @@ inline HeldMass heldMass(const Vector<double>& normal, double inverseMass1, Held
     return {std::max(inverse, 1e-9 * least), 1 / std::max({inverse, 0.5 * least, 1e-200})};
 }
 
-/// The same of eight contacts; of pairs that are held along no axis it is what they have.
+/// The same of eight contacts; of pairs of which none is held it is what they have.
 struct HeldMasses {
     Pack inverse, effective;
 };
 /// @param second null at a wall
 [[gnu::noinline, gnu::cold]] inline HeldMasses heldMasses(
-    const HeldBits* held, const std::array<std::uint32_t, Pack::lanes>& first,
+    const HeldInContacts& held, const std::array<std::uint32_t, Pack::lanes>& first,
     const std::array<std::uint32_t, Pack::lanes>* second, Pack nx, Pack ny, Pack nz, Pack inverseMass1,
     Pack inverseMass2, Pack inverse, Pack effective) {
     const auto x = nx.toLanes(), y = ny.toLanes(), z = nz.toLanes(), one = inverseMass1.toLanes(),
                two = inverseMass2.toLanes();
     LaneColumn inverses{inverse.toLanes()}, masses{effective.toLanes()};
     for (std::size_t k = 0; k < Pack::lanes; ++k) {
-        const HeldBits held1 = held[first[k]], held2 = second ? held[(*second)[k]] : HeldBits();
+        if (held.masses && one[k] == 0 && two[k] == 0) {
+            masses.lane[k] = massOfHeldPair(held.masses[first[k]], second ? held.masses[(*second)[k]] : 0);
+            continue;
+        }
+        if (!held.axes) continue;
+        const HeldBits held1 = held.axes[first[k]], held2 = second ? held.axes[(*second)[k]] : HeldBits();
         if (!held1.areAlong() && !held2.areAlong()) continue;
         const HeldMass mass = heldMass({x[k], y[k], z[k]}, one[k], held1, two[k], held2);
         inverses.lane[k] = mass.inverse, masses.lane[k] = mass.effective;

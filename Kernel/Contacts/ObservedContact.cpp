@@ -54,8 +54,8 @@ ObservedContact observeContact(const ContactStore& contacts, const ContactLaws& 
                      : shapes->touch(grains, block.first[lane], block.second[lane], seen.shift);
         seen.separation = -touch->depth;
         seen.ownNormal = touch->normal;
-        seen.point = first.position + touch->arm1;
         if (wall) seen.shift = touch->arm1 - (0.5 * touch->depth) * touch->normal;
+        seen.point = first.position + (wall ? seen.shift : touch->arm1);
     }
     if (seen.bridged) {
         ContactNumbers interaction;

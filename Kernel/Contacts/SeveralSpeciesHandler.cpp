@@ -89,6 +89,17 @@ bool SeveralSpeciesHandler::hasChanges() const {
     return mixedSpecies != all.size() || mixedPairs != pairs.size() || mixedFrom.haveChanged();
 }
 
+std::vector<SetValues> SeveralSpeciesHandler::setValues() const {
+    std::vector<SetValues> found;
+    for (const Added& added : all) {
+        AnySpecies& species = *added.species;
+        found.push_back({species.getIndex(), species.getIndex(), species.getName(), species.fields()});
+    }
+    for (const auto& [pair, laws] : pairs)
+        found.push_back({pair.first, pair.second, laws.own->getName(), laws.own->fields()});
+    return found;
+}
+
 void SeveralSpeciesHandler::visitState(StateArchive& archive, bool& changedInRun) {
     visitForm(archive, *this);
     archive.same("count", all.size());

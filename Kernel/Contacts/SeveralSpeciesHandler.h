@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "Kernel/Contacts/SpeciesLaws.h"
+#include "Kernel/Species/SetValues.h"
 #include "Kernel/Species/SpeciesInScene.h"
 
 namespace pendular {
@@ -122,6 +123,8 @@ public:
     [[nodiscard]] std::string sentenceOfNone(int a, int b) const;
     /// Whether a value has been set, or a species added, since mixAll().
     [[nodiscard]] bool hasChanges() const;
+    /// Of each species, and of each pair that the driver has spoken of.
+    [[nodiscard]] std::vector<SetValues> setValues() const;
     /// A run goes on with the species that it began with, and with the laws of each pair; with their values
     /// as they have been changed during the run, where they have.
     void visitState(StateArchive& archive, bool& changedInRun);

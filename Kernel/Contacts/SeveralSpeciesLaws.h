@@ -26,6 +26,7 @@ public:
     void visitState(StateArchive& archive, bool& changedInRun) override {
         species.visitState(archive, changedInRun);
     }
+    [[nodiscard]] std::vector<SetValues> setValues() override { return species.setValues(); }
     [[nodiscard]] std::vector<FieldValue> fields(int a, int b) const override {
         return ofPair(a, b).fields(a, b);
     }
@@ -46,6 +47,11 @@ public:
     [[nodiscard]] double normalStiffness(int a, int b, const Bodies& bodies, double overlap) const override {
         const ContactLaws* const laws = find(a, b);
         return laws ? laws->normalStiffness(a, b, bodies, overlap) : 0;
+    }
+    /// None where the pair has no laws.
+    [[nodiscard]] ContactSpot contactSpot(int a, int b, const Bodies& bodies, double overlap) const override {
+        const ContactLaws* const laws = find(a, b);
+        return laws ? laws->contactSpot(a, b, bodies, overlap) : ContactSpot{};
     }
     [[nodiscard]] double largestOverlap(int a, int b) const override {
         const ContactLaws* const laws = find(a, b);

@@ -46,6 +46,7 @@ public:
     void visitState(StateArchive& archive, bool& changedInRun) override {
         species.visitState(archive, changedInRun);
     }
+    [[nodiscard]] std::vector<SetValues> setValues() override { return species.setValues(); }
     [[nodiscard]] std::vector<FieldValue> fields(int a, int b) const override {
         std::vector<FieldValue> found;
         of(a, b).forEachLaw([&]<class Law>(const Law& law) {
@@ -73,6 +74,9 @@ public:
         using Normal = typename S::Mixed::Normal;
         const Contact<double> contact{overlap, bodies.effectiveRadius(), 1};  // no spring knows the mass
         return Normal::stiffness(static_cast<const Normal&>(of(a, b)).prepare(), contact);
+    }
+    [[nodiscard]] ContactSpot contactSpot(int a, int b, const Bodies& bodies, double overlap) const override {
+        return pendular::contactSpot(of(a, b), bodies, overlap);
     }
     [[nodiscard]] std::vector<std::pair<std::string_view, DomainLimit>> brokenLimits(
         int a, int b, const Bodies& bodies) const override {
@@ -193,7 +197,7 @@ public:
         const TranslationRecord* const translation = task.translation;
         const RotationRecord* const rotation = task.rotation;
         const ContactBlock* const blocks = task.store.blocks.data();
-        const HeldBits* const held = task.held;
+        const HeldInContacts* const held = task.held;
         if (task.store.buckets[task.bucket].wall >= 0) {
             const WallPointColumns* const points = task.store.wallPoints.data();
             const std::size_t first = task.store.firstWallBlock();
@@ -226,6 +230,7 @@ protected:
         ContactKernel<S> kernel(prepared[task.bucket], task.step, task.timing,
                                 task.overlaps->part(overlapLimit.largest), task.store, task.acceleration,
                                 task.totals, task.withSamples);
+        kernel.springsAhead = task.springsAhead;
         bool all = true;
         for (std::size_t b = task.begin, end = task.end; b < end; ++b)
             if (slots[b] != ContactStore::asleep || unlisted > gaps[b]) {

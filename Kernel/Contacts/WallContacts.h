@@ -136,6 +136,7 @@ inline void addWallForcesOnShapes(const ContactStore& store, const Bucket& bucke
 /// the contact would push it on, out of the other side.
 inline void refuseCrossing(const Wall& wall, int number, const TranslationRecord& grain,
                            std::uint32_t identity, const WallPoint& point, double step) {
+    if (grain.inverseMass == 0) return;  // it goes where it is driven
     const Vector<double> way = step * (grain.velocity - point.velocity);
     if (point.distance * std::abs(point.distance) > squaredNorm(way)) return;
     if (!wall.isCrossed(grain.position - way, grain.position)) return;

@@ -58,10 +58,14 @@ double givenByPiston(const ContactSample& s, const RigidVelocity& piston) {
     return dot(forceOnFirst(s), piston.linear) + dot(coupleOnFirst(s), piston.spin);
 }
 
+/// W, that a wall gives to the contact.
+double givenByWall(const ContactSample& s) {
+    return dot(forceOnFirst(s), wallVelocityAt(s)) + dot(coupleOnFirst(s), s.wallSpin);
+}
+
 /// W, that bodies which are held give to the contact: the force on each times its velocity, reversed.
-double givenByHeld(const ContactSample& s, const BodyMotion& first, const BodyMotion& second, bool isWall) {
+double givenByHeld(const ContactSample& s, const BodyMotion& first, const BodyMotion& second) {
     const Vector<double> force = forceOnFirst(s), own = coupleOnFirst(s);
-    if (isWall) return dot(force, wallVelocityAt(s)) + dot(own, s.wallSpin);
     // N m, of the force on the first body about the centre of a body
     const Vector<double> leverless = cross(s.normal, tangentialForce(s));
     const auto torque = [&](const Vector<double>& arm, double radius, double side) {
@@ -154,10 +158,15 @@ void addContact(EnergyRecord& record, const BodyMotion& first, const BodyMotion&
     const auto against = [&](double ContactSample::*force) {
         return half * (last.*force * before.approach + now.*force * after.approach);
     };
-    if (kind.isWall || first.isHeld || second.isHeld)
-        account.walls += half * (givenByHeld(last, first, second, kind.isWall) +
-                                 givenByHeld(now, first, second, kind.isWall) -
-                                 givenByPiston(last, kind.lastPiston) - givenByPiston(now, kind.piston));
+    if (kind.isWall) {
+        const double given = half * (givenByWall(last) + givenByWall(now) -
+                                     givenByPiston(last, kind.lastPiston) - givenByPiston(now, kind.piston));
+        // A membrane's own account has this work, as it was done on the vertices.
+        if (kind.isMembrane) account.stepError -= given;
+        else account.walls += given;
+    }
+    if (first.isHeld || second.isHeld)
+        account.walls += half * (givenByHeld(last, first, second) + givenByHeld(now, first, second));
 
     // An image that moves is moved by the shear or strain.
     if (!second.isHeld && second.slide != Vector<double>{0, 0, 0})

@@ -19,6 +19,7 @@ struct BodyMotion {
 /// The properties of the laws of a contact that its energy depends on.
 struct ContactKind {
     bool isWall = false;
+    bool isMembrane = false;      // a wall that has an account of its own of the work of contacts
     bool isPlastic = false;       // the normal law has a history
     bool adhesionBreaks = false;  // else it is a function of the separation, which loses nothing
     bool hasCouples = true;       // torques besides those of its force

@@ -254,6 +254,8 @@ private:
             kind.lastPiston = pistonMotion(scene.walls, static_cast<int>(record.lastWall), record.last, true);
             kind.piston = pistonMotion(scene.walls, bucket.wall, record.now, false);
             record.lastWall = bucket.wall;
+            kind.isMembrane =
+                scene.walls.getObject(static_cast<std::size_t>(bucket.wall)).membrane() != nullptr;
         }
         const std::uint32_t first = block.first[lane], second = block.second[lane];
         BodyMotion other = kind.isWall ? BodyMotion{} : meanMotion(grains, second);
@@ -265,13 +267,9 @@ private:
         const BodyMotion grain = meanMotion(grains, first);
         EnergyLedger account;  // of this contact in the step
         addContact(record, grain, other, kind, scene.step, account);
-        if (scene.step > 0 && wear.wears(bucket.wall) && !grain.isHeld &&
-            WearOfStep::isWorn(record, account.sliding))
+        if (scene.step > 0 && wear.wears(bucket.wall) && WearOfStep::isWorn(record, account.sliding))
             worn.push_back(WearOfStep::of(grains, box, bucket, block, lane, record, grain, account.sliding));
         takeNowAsLast(record, kind);
-        // The membrane's own account has this work, as it was done on the vertices.
-        if (kind.isWall && scene.walls.getObject(static_cast<std::size_t>(bucket.wall)).membrane())
-            account.stepError -= std::exchange(account.walls, 0);
         return account;
     }
 

@@ -72,7 +72,7 @@ void WearAccount::finish(const ParticleStore& grains, ContactSystem& contacts, c
                 [&](std::size_t k, const Bucket& bucket, const ContactBlock& block, std::size_t lane,
                     EnergyRecord& record) {
                     const BodyMotion grain = meanMotion(grains, block.first[lane]);
-                    if (step > 0 && wear.wears(bucket.wall) && !grain.isHeld) {
+                    if (step > 0 && wear.wears(bucket.wall)) {
                         const double work = slidingWorkAtWall(record, grain, isShaped, step);
                         if (WearOfStep::isWorn(record, work)) {
                             wears[k] = 1;

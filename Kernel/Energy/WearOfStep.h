@@ -56,10 +56,12 @@ public:
                             const BodyMotion& grain, double slidingWork) {
         const std::uint32_t place = block.first[lane];
         const Vector<double> arm = depthOf(record, grain.radius);
-        return {grains.identity[place], bucket.wall, block.second[lane],
-                grains.translation[place].position + arm,
-                contactWear(record, slidingWork, grains.atStart[place].velocity,
-                            massAtContact(grains, box, place, arm))};
+        WearOfContact worn{grains.identity[place], bucket.wall, block.second[lane],
+                           grains.translation[place].position + arm,
+                           contactWear(record, slidingWork, grains.atStart[place].velocity,
+                                       massAtContact(grains, box, place, arm))};
+        worn.done.isImpact &= !grain.isHeld;  // it is pressed in, whatever its mass
+        return worn;
     }
 
     void give(const WearOfContact& one) const {

@@ -46,6 +46,11 @@ void ColumnFlow::findPressure(const FluidGrid& grid, FluidFields& fields, const 
     }
 }
 
+void ColumnFlow::compareSetUp(StateArchive& archive, double now) {
+    compareFluid(archive, fluid);
+    archive.sameValues("superficialSpeed", {speed(0), speed(now)}, "m/s");
+}
+
 void ColumnFlow::visitState(StateArchive& archive) { archive.finite("pressureDrop", drop); }
 
 }  // namespace pendular

@@ -7,8 +7,14 @@
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Math/Halving.h"
 #include "Kernel/Species/LawNames.h"
+#include "Kernel/State/StateArchive.h"
 
 namespace pendular {
+
+void compareFluid(StateArchive& archive, const FluidMaterial& fluid) {
+    for (const auto& field : FluidMaterial::fields())
+        archive.same(field.name, fluid.*field.member, field.unit);
+}
 
 using std::numbers::pi;
 

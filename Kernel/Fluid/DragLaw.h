@@ -9,6 +9,8 @@
 
 namespace pendular {
 
+class StateArchive;
+
 /// A fluid of constant density and viscosity.
 struct FluidMaterial {
     static constexpr std::string_view name = "Fluid";
@@ -24,6 +26,9 @@ struct FluidMaterial {
                             "dynamic viscosity", "water 1.0e-3, air 1.8e-5"}};
     }
 };
+
+/// Refuses a restart file of another fluid.
+void compareFluid(StateArchive& archive, const FluidMaterial& fluid);
 
 /// What the drag on a grain depends on.
 struct DragState {

@@ -23,6 +23,9 @@ public:
     virtual void findPressure(const FluidGrid& grid, FluidFields& fields, const Vector<double>& gravity) = 0;
     /// The step's `source` is known. @param length s, of the step
     virtual void take(const FluidGrid&, const FluidFields&, double /*length*/) {}
+    /// Lists all that is set of it, each by archive.same(name, value, unit), so that no run goes on with
+    /// another fluid; empty where nothing is. @param now s
+    virtual void compareSetUp(StateArchive& archive, double now) = 0;
     /// Visits what it remembers from step to step.
     virtual void visitState(StateArchive&) {}
 };

@@ -61,6 +61,7 @@ public:
     void accelerate(StepContext& step) override;
     void finish(StepContext& step) override;
     void takeBack(StepContext& step) override;
+    void compareSetUp(StateArchive& archive, StepContext& scene) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
     void addTo(SummaryRows& rows) const override;
 

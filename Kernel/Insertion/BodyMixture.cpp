@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -11,6 +12,7 @@
 #include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Insertion/Insertion.h"
 #include "Kernel/Particles/BodyHandler.h"
+#include "Kernel/State/StateArchive.h"
 
 namespace pendular {
 
@@ -91,6 +93,43 @@ std::vector<Ball> BodyKind::spheres(double radius, const Vector<double>& place,
                                     const Eigen::Quaterniond& turn) const {
     if (!clump()) return {{toEigen(place), reach(radius)}};
     return placedBalls(clump()->getTemplate().getSpheres(), scale(radius), place, turn);
+}
+
+/// Sizes are compared by their range and their moments.
+void BodyKind::compareSetUp(StateArchive& archive) const {
+    archive.same("kind", word());
+    archive.same("species", species());
+    archive.sameRecord<double>("velocity", velocity(), "m/s");
+    archive.sameRecord<double>(
+        "spin", std::visit([](const auto& one) { return toVector(one.getAngularVelocity()); }, like),
+        "rad/s");
+    archive.same("film", film(), "m^3");
+    const Eigen::Quaterniond turn = orientation();
+    archive.sameRecord<double>("orientation", std::array{turn.w(), turn.x(), turn.y(), turn.z()});
+    archive.same("smallest", sizes.smallest(), "m");
+    archive.same("largest", sizes.largest(), "m");
+    archive.same("meanDiameter", sizes.moment(1), "m");
+    archive.same("meanSquare", sizes.moment(2), "m^2");
+    archive.same("meanVolume", sizes.moment(3), "m^3");
+    if (clump()) {
+        const ClumpTemplate& shape = clump()->getTemplate();
+        std::vector<double> spheres;
+        for (const Ball& ball : shape.getSpheres())
+            spheres.insert(spheres.end(), {ball.centre.x(), ball.centre.y(), ball.centre.z(), ball.radius});
+        archive.same<double>("spheres", std::span<const double>(spheres), "m");
+        archive.same("volume", shape.getVolume(), "m^3");
+        const BodyMass mass = shape.massOf(1, 1);
+        archive.same("massOverDensity", mass.mass, "m^3");
+    } else if (shaped()) {
+        const Superquadric& own = shaped()->getShape();
+        archive.sameRecord<double>("halfLengths", Vector<double>{own.a, own.b, own.c}, "m");
+        archive.same("n1", own.n1);
+        archive.same("n2", own.n2);
+    } else {
+        const HeldAxes held = grain()->getHeldAxes();
+        archive.same("held", fmt::format("{:d}{:d}{:d}{:d}{:d}{:d}", held.x, held.y, held.z, held.aboutX,
+                                         held.aboutY, held.aboutZ));
+    }
 }
 
 void BodyKind::addTo(const InsertionScene& scene, double radius, const Vector<double>& place,

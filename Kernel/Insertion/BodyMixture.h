@@ -13,6 +13,7 @@ namespace pendular {
 class GrainShapes;
 struct InsertionScene;
 class ParticleHandler;
+class StateArchive;
 
 /// Balls (m) about the origin, made larger by a factor, turned and brought to a place (m).
 std::vector<Ball> placedBalls(std::span<const Ball> balls, double scale, const Vector<double>& place,
@@ -49,6 +50,8 @@ struct BodyKind {
     /// superquadric that around it.
     [[nodiscard]] std::vector<Ball> spheres(double radius, const Vector<double>& place,
                                             const Eigen::Quaterniond& turn) const;
+    /// Refuses a restart file of another kind of bodies.
+    void compareSetUp(StateArchive& archive) const;
     /// Adds such a body to a scene. @param flow m/s, that its velocity gets besides its own
     void addTo(const InsertionScene& scene, double radius, const Vector<double>& place,
                const Eigen::Quaterniond& turn, const Vector<double>& flow) const;

@@ -242,7 +242,7 @@ Inserted insertBodies(const InsertionScene& scene, const BodyMixture& mixture, c
     if (bodies.empty()) return result;
     if (areSpheres) placeSpheres(scene, bodies, *region, amount, mass / full, options, result.firstLeftOut);
     else placeBodies(scene, bodies, *region, amount, options, result.firstLeftOut);
-    const std::size_t before = scene.bodies.getSize();
+    const std::size_t before = scene.particles.store().bodies.size();
     scene.particles.reserve(scene.particles.store().size() + bodies.size());
     for (const PlacedBody& body : bodies) {
         const Vector<double> flow =

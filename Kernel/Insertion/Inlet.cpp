@@ -457,47 +457,14 @@ std::optional<InletHandler::Room> InletHandler::findRoom(const InsertionScene& s
     return std::nullopt;
 }
 
-/// A restart refuses another mixture; one of grains of one kind is written as files without clumps have it.
-void InletHandler::visitKinds(StateArchive& archive, const BodyMixture& bodies) {
-    const auto visitOne = [&](const BodyKind& kind) {
-        archive.same("smallest", kind.sizes.smallest(), "m");
-        archive.same("largest", kind.sizes.largest(), "m");
-        archive.same("meanVolume", kind.sizes.moment(3), "m^3");
-        archive.same("species", kind.species());
-        archive.sameRecord<double>("velocity", kind.velocity());
-    };
-    visitOne(bodies[0]);
-    if (bodies.size() == 1 && bodies[0].grain()) {
-        archive.require(archive.isWriting() || !archive.holds("kinds"), "kinds",
-                        "is kept, but the inlet brings grains of one kind");
-        return;
-    }
-    archive.same("kinds", static_cast<std::int32_t>(bodies.size()));
-    for (std::size_t k = 0; k < bodies.size(); ++k)
-        archive.group(fmt::format("kind{}", k), [&] {
-            const BodyKind& kind = bodies[k];
-            visitOne(kind);
-            archive.same("share", bodies.shareOf(k));
-            const ClumpTemplate* const shape = kind.clump() ? &kind.clump()->getTemplate() : nullptr;
-            archive.same("spheres", static_cast<std::int32_t>(shape ? shape->getSpheres().size() : 0));
-            archive.same("volume", shape ? shape->getVolume() : 0, "m^3");
-            archive.same("reach", shape ? shape->getReach() : 0, "m");
-            if (!kind.shaped()) return;
-            const Superquadric& own = kind.shaped()->getShape();
-            archive.sameRecord<double>("halfLengths", Vector<double>{own.a, own.b, own.c});
-            archive.same("n1", own.n1);
-            archive.same("n2", own.n2);
-        });
-}
-
-void InletHandler::visitState(StateArchive& archive) {
+void InletHandler::compareSetUp(StateArchive& archive) const {
     archive.same("count", inlets.size());
     for (std::size_t k = 0; k < inlets.size(); ++k)
         archive.group(std::to_string(k), [&] {
-            Kept& kept = inlets[k];
-            const Inlet& inlet = kept.inlet;
+            const Inlet& inlet = inlets[k].inlet;
             archive.group("region", [&] { inlet.region->visitState(archive); });
-            visitKinds(archive, kept.bodies);
+            compareKinds(archive, inlets[k].bodies);
+            archive.same("randomTurns", inlet.randomTurns);
             archive.same("massFlow", inlet.massFlow, "kg/s");
             archive.same("numberFlow", inlet.numberFlow, "1/s");
             archive.same("firstTime", inlet.first, "s");
@@ -507,8 +474,25 @@ void InletHandler::visitState(StateArchive& archive) {
             archive.same("seed", inlet.seed);
             archive.same("wholeGrains", inlet.wholeGrains);
             archive.same("followsWall", inlet.wall ? static_cast<std::int32_t>(*inlet.wall) : -1);
-            archive.sameRecord<double>("rise", inlet.rise);
+            archive.sameRecord<double>("rise", inlet.rise, "m");
             archive.same("mostRises", inlet.mostRises);
+        });
+}
+
+void InletHandler::compareKinds(StateArchive& archive, const BodyMixture& bodies) {
+    archive.same("kinds", static_cast<std::int32_t>(bodies.size()));
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+        archive.group(fmt::format("kind{}", k), [&] {
+            archive.same("share", bodies.shareOf(k));
+            bodies[k].compareSetUp(archive);
+        });
+}
+
+void InletHandler::visitState(StateArchive& archive) {
+    for (std::size_t k = 0; k < inlets.size(); ++k)
+        archive.group(std::to_string(k), [&] {
+            Kept& kept = inlets[k];
+            const Inlet& inlet = kept.inlet;
             archive.value("rises", kept.rises);
             archive.require(kept.rises <= inlet.mostRises, "rises", "is more than there can be");
             kept.count.risen = kept.rises * norm(inlet.rise);

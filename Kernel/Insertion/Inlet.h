@@ -148,6 +148,7 @@ public:
     /// On several ranks all try the same candidates, and a place is free if it is on each of them.
     void letIn(const InsertionScene& scene, ContactSystem& contacts, double time,
                const std::function<void(std::string)>& tell);
+    void compareSetUp(StateArchive& archive) const;
     void visitState(StateArchive& archive);
 
 private:
@@ -182,7 +183,7 @@ private:
     };
     static std::optional<Room> findRoom(const InsertionScene& scene, const AllRanks& ranks, Kept& kept,
                                         const class SphereGrid& grid, std::uint32_t number);
-    static void visitKinds(StateArchive& archive, const BodyMixture& bodies);
+    static void compareKinds(StateArchive& archive, const BodyMixture& bodies);
 
     std::vector<Kept> inlets;
     bool hasBegun = false;

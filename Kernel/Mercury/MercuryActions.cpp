@@ -14,6 +14,12 @@ void MercuryActions::add(ActsInSteps* one) {
     all.push_back(one);
 }
 
+void MercuryActions::compareSetUp(StateArchive& archive, StepContext& scene) {
+    archive.same("count", static_cast<std::uint64_t>(all.size()));
+    for (std::size_t k = 0; k < all.size(); ++k)
+        archive.group(fmt::format("boundary {}", k), [&] { all[k]->compareSetUp(archive, scene.time); });
+}
+
 void MercuryActions::visitState(StateArchive& archive, StepContext& /*scene*/) {
     for (std::size_t k = 0; k < all.size(); ++k)
         archive.group(fmt::format("boundary {}", k), [&] { all[k]->visitState(archive); });

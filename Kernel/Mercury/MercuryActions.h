@@ -12,6 +12,8 @@ class ActsInSteps {
 public:
     virtual ~ActsInSteps() = default;
     virtual void act(StepContext& step) = 0;
+    /// What is set of it, as StepPart::compareSetUp() says.
+    virtual void compareSetUp(StateArchive& archive, double now) const = 0;
     /// What it remembers of a run.
     virtual void visitState(StateArchive& archive) = 0;
 };
@@ -31,6 +33,7 @@ public:
     void atEnd(StepContext& step) override {
         for (ActsInSteps* const one : all) one->act(step);
     }
+    void compareSetUp(StateArchive& archive, StepContext& scene) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
 
 private:

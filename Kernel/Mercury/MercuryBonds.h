@@ -25,6 +25,8 @@ public:
     [[nodiscard]] bool needsFinishedStep() const override { return false; }
     void prepare(StepContext& step) override { give(step); }
     void afterForces(StepContext& step) override;
+    /// It has no settings: bonds are asked for in the run.
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}
     void visitState(StateArchive& archive, StepContext& scene) override;
 
 private:

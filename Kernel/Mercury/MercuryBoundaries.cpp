@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Math/EigenConversion.h"
 #include "Kernel/State/StateArchive.h"
 
 namespace pendular {
@@ -180,6 +181,12 @@ void FluxBoundary::act(StepContext& step) {
         if (is) ++own.forwards, own.massForwards += mass;
         else ++own.backwards, own.massBackwards += mass;
     }
+}
+
+void FluxBoundary::compareSetUp(StateArchive& archive, double now) const {
+    archive.sameRecord<double>("normal", toVector(plane->normal));
+    if (prescribed) archive.sameValues("prescribedDistance", {prescribed(0), prescribed(now)}, "m");
+    else archive.sameRecord<double>("point", toVector(plane->point), "m");
 }
 
 void FluxBoundary::visitState(StateArchive& archive) {

@@ -156,6 +156,8 @@ public:
     [[nodiscard]] double getVolumeOfParticlesCrossedNet() const { return volumeOf(count().netMass()); }
 
     void act(StepContext& step) override;
+    /// A distance that depends on the time is compared by its values at the start and now.
+    void compareSetUp(StateArchive& archive, double now) const override;
     void visitState(StateArchive& archive) override;
 
 private:

@@ -27,6 +27,8 @@ public:
     [[nodiscard]] double getVolumeLost() const { return lost; }
 
     void act(StepContext& step) override;
+    /// The function of the driver cannot be kept.
+    void compareSetUp(StateArchive& /*archive*/, double /*now*/) const override {}
     void visitState(StateArchive& archive) override;
 
 private:

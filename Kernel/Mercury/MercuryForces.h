@@ -48,6 +48,8 @@ public:
     void accelerate(StepContext& step) override;
     void finish(StepContext& step) override;
     void takeBack(StepContext& step) override;
+    /// A restart file cannot keep the function of the driver.
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}
     void visitState(StateArchive& archive, StepContext& scene) override;
 
 private:

@@ -119,6 +119,31 @@ void MercuryInsertions::atEnd(StepContext& step) {
         if (!kept.isStopped) kept.source.letIn(step.particles, step.walls, step.box, step.timeAfter);
 }
 
+void GrainSource::compareSetUp(StateArchive& archive) const {
+    archive.same("sorts", static_cast<std::uint64_t>(sorts.size()));
+    for (std::size_t k = 0; k < sorts.size(); ++k)
+        archive.group(fmt::format("sort {}", k), [&, &sort = sorts[k]] {
+            archive.same("share", sort.share);
+            BodyKind{sort.like, sort.sizes, sort.share}.compareSetUp(archive);
+        });
+    archive.same("maxFailed", maxFailed);
+    const auto compare = [&](std::string_view name, const Vec3D& v, std::string_view unit) {
+        archive.sameRecord<double>(name, toVector(v), unit);
+    };
+    compare("lowest", lowest, "m"), compare("highest", highest, "m");
+    compare("lowestVelocity", lowVelocity, "m/s"), compare("highestVelocity", highVelocity, "m/s");
+    archive.same("volumeAtOnce", atOnce, "m^3");
+    archive.same("volumeFlow", flow, "m^3/s");
+    archive.same("hasOwnPlaces", static_cast<bool>(place));
+}
+
+void MercuryInsertions::compareSetUp(StateArchive& archive, StepContext& /*scene*/) {
+    archive.same("count", static_cast<std::uint64_t>(sources.size()));
+    std::size_t number = 0;
+    for (const Kept& kept : sources)
+        archive.group(fmt::format("source {}", number++), [&] { kept.source.compareSetUp(archive); });
+}
+
 void MercuryInsertions::visitState(StateArchive& archive, StepContext& /*scene*/) {
     std::size_t number = 0;
     for (Kept& kept : sources)

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "Kernel/Insertion/BodyMixture.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Sizes/SizeDistribution.h"
 #include "Kernel/State/Random.h"
@@ -45,6 +46,7 @@ public:
 
     /// Lets grains come until a time (s).
     void letIn(ParticleHandler& particles, const WallHandler& walls, const PeriodicBox& box, double time);
+    void compareSetUp(StateArchive& archive) const;
     void visitState(StateArchive& archive);
 
 private:
@@ -73,6 +75,7 @@ public:
     [[nodiscard]] bool needsFinishedStep() const override { return false; }
     void begin(StepContext& /*scene*/, bool /*isRestarted*/) override { hasBegun = true; }
     void atEnd(StepContext& step) override;
+    void compareSetUp(StateArchive& archive, StepContext& scene) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
 
 private:

@@ -6,6 +6,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Math/EigenConversion.h"
+#include "Kernel/State/StateArchive.h"
 
 namespace pendular {
 
@@ -29,6 +30,17 @@ void MercuryPaths::setPosition(GrainReference grain, std::function<Vec3D(double)
 void MercuryPaths::setVelocity(const GrainReference& grain, std::function<Vec3D(double)> velocity) {
     requireHeld(grain);
     paths[grain.getId()] = {{}, std::move(velocity)};
+}
+
+void MercuryPaths::compareSetUp(StateArchive& archive, StepContext& scene) {
+    archive.same("count", static_cast<std::uint64_t>(paths.size()));
+    for (const auto& [identity, path] : paths) {
+        const auto& function = path.position ? path.position : path.velocity;
+        const Vec3D first = function(0), last = function(scene.time);
+        archive.sameValues(fmt::format("{}OfGrain{}", path.position ? "place" : "velocity", identity),
+                           {first.x(), first.y(), first.z(), last.x(), last.y(), last.z()},
+                           path.position ? "m" : "m/s");
+    }
 }
 
 void MercuryPaths::prepare(StepContext& step) {

@@ -16,6 +16,8 @@ public:
     [[nodiscard]] Features features(const StepContext&) const override;
     [[nodiscard]] bool needsFinishedStep() const override { return false; }
     void prepare(StepContext& step) override;
+    /// Paths are compared by their values at the start and now.
+    void compareSetUp(StateArchive& archive, StepContext& scene) override;
 
     /// Throw InputError for a grain that is not held altogether.
     /// @param now s: the grain is put where the path is then

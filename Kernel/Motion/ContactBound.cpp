@@ -9,6 +9,7 @@
 #include "Kernel/Math/ElementaryFunctions.h"
 #include "Kernel/Math/ExactSum.h"
 #include "Kernel/Motion/StabilityLimit.h"
+#include "Kernel/Motion/UnitSums.h"
 #include "Kernel/Particles/MovingBodies.h"
 #include "Kernel/Walls/PartCover.h"
 
@@ -18,17 +19,6 @@ namespace {
 /// Contacts that barely touch are taken for this overlap, of the smaller radius: the slope of a law is asked
 /// at none at all.
 constexpr double smallestOverlap = 1e-6;
-
-/// Rounds to the nearest multiple of the unit, a power of two, for values below 2^51 units: exact in sums of
-/// a few thousand.
-double inUnits(double value, double unit) {
-    constexpr double rounds = 0x1.8p52;
-    return (value + rounds * unit) - rounds * unit;
-}
-/// 2^-40 of the power of two above the value.
-double unitOf(double largest) { return largest > 0 ? std::ldexp(1.0, std::ilogb(largest) - 39) : 0; }
-
-constexpr std::array axesOfSpace{Vector<double>{1, 0, 0}, Vector<double>{0, 1, 0}, Vector<double>{0, 0, 1}};
 
 /// What a motion of a rigid body gives at a contact: its slip along a direction is the product of this with
 /// sqrt(M) v and sqrt(I) w in the principal axes.
@@ -55,13 +45,6 @@ struct BodySlip {
     double shift;         // 1/sqrt(kg)
     Vector<double> spin;  // 1/sqrt(kg m^2)
 };
-
-void addSquare(ContactBounds::BodyMatrix& to, double factor, const BodySlip::Six& slip, double unit) {
-    std::size_t k = 0;
-    for (std::size_t row = 0; row < 6; ++row)
-        for (std::size_t column = 0; column <= row; ++column)
-            to[k++] += inUnits(factor * slip[row] * slip[column], unit);
-}
 
 struct Terms {
     double along, across;  // of n n and of 1 - n n
@@ -107,10 +90,11 @@ ContactBound ContactBounds::find(const ContactSystem& contacts, const WallHandle
                                  const ParticleStore& grains, const Integrator& integrator,
                                  const ContactOutlook& outlook) {
     ContactBound found;
-    terms.clear(), shaped.clear();
+    terms.clear(), shaped.clear(), wallSides.clear();
     box = &contacts.periodicBox();
     shapes = contacts.laws().shapes();
     findBodies(grains);
+    findMovedWalls(walls);
     std::vector<std::size_t> ends;
     for (const Bucket& bucket : contacts.store().buckets) {
         take(contacts, walls, grains, bucket, outlook);
@@ -138,6 +122,7 @@ ContactBound ContactBounds::find(const ContactSystem& contacts, const WallHandle
     for (const Term& term : terms) {
         addTo(grains, term, term.first, term.second);
         if (term.second != none) addTo(grains, term, term.second, term.first);
+        if (term.side != none && term.first < grains.ownSize()) addToWall(term);
     }
     for (std::size_t k = 0; k < grains.held.size(); ++k) holdBlock(grains.held[k], blocks[k]);
     for (std::size_t k = 0; k < grains.ownSize(); ++k)
@@ -145,6 +130,7 @@ ContactBound ContactBounds::find(const ContactSystem& contacts, const WallHandle
     for (std::size_t k = 0; k < grains.bodies.size(); ++k)
         takeLeast(bodies[k], grains.bodies.membersOf(k).front().grain, integrator, found);
     if (ranks.areSeveral()) takeLeastOfRanks(found, ranks);
+    if (!movedWalls.empty()) takeLeastOfWalls(grains, integrator, ranks, found);
     return found;
 }
 
@@ -245,7 +231,8 @@ void ContactBounds::chooseWeights(const ContactSystem& contacts, const ParticleS
             loads[moverAt(place)] += inUnits(springOf(term, place), springUnit);
         });
     contacts.tellGhosts(std::span(loads).first(blocks.size()), std::span(loads).subspan(blocks.size()));
-    largest = 0;
+    if (!movedWalls.empty()) chooseWeightsOfWalls(grains, contacts.ranks());
+    largest = largestLoadOfWalls();
     for (const double load : loads) largest = std::max(largest, load);
     largest = contacts.ranks().largest(largest);
     // An entry is at most 5/2 (1 + t) k/m, with t k/m at most the load of the other grain.
@@ -255,9 +242,12 @@ void ContactBounds::chooseWeights(const ContactSystem& contacts, const ParticleS
         const double share =
             term.second == none ? 1 : 1 + std::max(weight(term.first, other), weight(other, term.first));
         forBoth(term, [&](std::uint32_t place) {
-            dashpot = std::max(dashpot, share * stiffest(term.stiffness, &SpringAndDashpot::dashpot) *
+            dashpot = std::max(dashpot, shareOf(grains, term, place, none) * share *
+                                            stiffest(term.stiffness, &SpringAndDashpot::dashpot) *
                                             mobility(grains, term, place));
         });
+        if (const double t = weightAtWall(term); t > 0)
+            dashpot = std::max(dashpot, (1 + 1 / t) * wallSides[term.side].dashpot);
     }
     dashpotUnit = unitOf(4 * contacts.ranks().largest(dashpot));
 }
@@ -345,6 +335,8 @@ void ContactBounds::takeAtWall(const ContactSystem& contacts, const Wall& wall, 
         if (term.isHeld)
             term.pair.effectiveMass =
                 heldMass(term.normal, grain.inverseMass, grains.heldAt(first), 0, {}).effective;
+        takeSide(wall, bucket.wall, parts[k], grain.position,
+                 (0.5 * (grain.radius + point.distance)) * term.normal, term);
         keep(contacts, bucket, begin + k, term, outlook);
     }
 }
@@ -424,8 +416,10 @@ void ContactBounds::press(const ContactLaws& laws, const Bucket& bucket, std::sp
     }
 }
 
-double ContactBounds::shareOf(const ParticleStore& grains, std::uint32_t place, std::uint32_t other) const {
-    const bool isShared = other != none && grains.translation[other].inverseMass > 0;
+double ContactBounds::shareOf(const ParticleStore& grains, const Term& term, std::uint32_t place,
+                              std::uint32_t other) const {
+    if (other == none) return 1 + weightAtWall(term);
+    const bool isShared = grains.translation[other].inverseMass > 0;
     return isShared ? 1 + weight(place, other) : 1;
 }
 
@@ -445,7 +439,7 @@ void ContactBounds::addTo(const ParticleStore& grains, const Term& term, std::ui
     if (isInBody(place)) return addToBody(grains, term, place, other);
     OfGrain& block = blocks[place];
     const ContactStiffness& s = term.stiffness;
-    const double over = shareOf(grains, place, other) * grain.inverseMass;
+    const double over = shareOf(grains, term, place, other) * grain.inverseMass;
     note(term, block);
     add(block.spring.shift, {over * s.normal.spring, over * s.sliding.spring}, term.normal, springUnit);
     add(block.dashpot.shift, {over * s.normal.dashpot, over * s.sliding.dashpot}, term.normal, dashpotUnit);
@@ -454,7 +448,9 @@ void ContactBounds::addTo(const ParticleStore& grains, const Term& term, std::ui
     const double ownInertia = grains.rotation[place].inverseInertia;                     // 1/(kg m^2)
     const double lever2 = grain.radius * grain.radius * ownInertia / grain.inverseMass;  // 5/2 of a sphere
     const double arm = term.pair.bodies.effectiveRadius(),
-                 turn = arm * arm * (ownInertia + (other == none ? 0 : inverseInertia(grains, other)));
+                 turn = arm * arm *
+                        (other == none ? (1 + weightAtWall(term)) * ownInertia
+                                       : ownInertia + inverseInertia(grains, other));
     const double rim = over * lever2, cross = over * std::sqrt(lever2);
     add(block.spring.spin, {turn * s.torsion.spring, rim * s.sliding.spring + turn * s.rolling.spring},
         term.normal, springUnit);
@@ -480,7 +476,7 @@ void ContactBounds::addToBody(const ParticleStore& grains, const Term& term, std
         const ShapedSide& side = sideOf(term, place);
         s.normal = side.normal * s.normal, s.sliding = side.sliding * s.sliding;
     }
-    const double share = shareOf(grains, place, other);
+    const double share = shareOf(grains, term, place, other);
     const Vector<double> toContact = armOf(grains, place, fromGrain(grains, term, place));
     const Vector<double> n = body.orientation.turnBack(term.normal),
                          arm = body.orientation.turnBack(toContact);
@@ -496,7 +492,8 @@ void ContactBounds::addToBody(const ParticleStore& grains, const Term& term, std
     for (const Vector<double>& axis : axesOfSpace)
         addSquare(block.friction, share * s.sliding.spring, slip.turning(cross(arm, axis)), springUnit);
     addSquare(block.friction, -share * s.sliding.spring, slip.turning(cross(arm, n)), springUnit);
-    const double ratio = other == none ? 0 : inverseInertia(grains, other) / inverseInertia(grains, place),
+    const double ratio = other == none ? weightAtWall(term)
+                                       : inverseInertia(grains, other) / inverseInertia(grains, place),
                  lever = term.pair.bodies.effectiveRadius(), turn = lever * lever * (1 + ratio);
     const auto addTurn = [&](BodyMatrix& to, double along, double across, double unit) {
         for (const Vector<double>& axis : axesOfSpace) addSquare(to, turn * across, slip.turning(axis), unit);
@@ -540,5 +537,8 @@ double ContactBounds::stepOf(const One& one, const Integrator& integrator, bool 
     if (spin > 0) step = std::min(step, springsAheadLimit(spin, one.relaxation, integrator));
     return step;
 }
+
+template void ContactBounds::note(const Term&, OfBody&);
+template double ContactBounds::stepOf(const OfBody&, const Integrator&, bool);
 
 }  // namespace pendular

@@ -8,6 +8,7 @@
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Motion/Integrator.h"
+#include "Kernel/Motion/MovedWall.h"
 
 namespace pendular {
 
@@ -25,6 +26,7 @@ struct ContactOutlook {
 struct ContactBound {
     double step = infinity;  // s
     std::uint32_t grain = 0;
+    int wall = -1;  // that bounds it: the grain is one that touches it, and the next two are of the wall
     std::size_t contactsOfGrain = 0;  // that touch, or may come to
     double overlapOfGrain = 0;        // the largest, of the smaller radius
     double supposedOverlap = 0;       // of the effective radius, the largest with the margin
@@ -48,12 +50,19 @@ struct ContactBound {
 /// most the largest eigenvalue of these over mass and moment of inertia. (These are the circles of Gershgorin
 /// by grains; by rows of the same matrix they forget the directions of contacts, and give three times as much
 /// in a dense bed.) t is the load of grain 2 over that of grain 1, the sum of k/m over its contacts: equal
-/// grains share alike, and a large grain among small ones does not take what is theirs. A wall, or a grain
-/// that is held, has no block and leaves its partner k alone. Of a block, the eigenvalues of the parts of
-/// shift and spin are exact, and their coupling is bounded by its norm. The same for dashpots.
+/// grains share alike, and a large grain among small ones does not take what is theirs. A wall that
+/// is held, or a grain, has no block and leaves its partner k alone. Of a block, the eigenvalues of the parts
+/// of shift and spin are exact, and their coupling is bounded by its norm. The same for dashpots.
 ///
 /// A rigid body has one block, to which the contacts of all its grains add: with the arm a from its centre of
 /// mass to a contact, s1 = n.(v + w x a) or, across, (1 - n n)(v + w x a). Its eigenvalues are exact.
+///
+/// A wall that forces move (a piston, a slider, a rotor, a free body) has one block by the same inequality,
+/// to which all of its contacts add, for the motions that it has: with the arm a from its centre, as of a
+/// rigid body. The vertices of a membrane have one each: with the weights w of a contact, which sum to 1,
+/// |sum w v|^2 <= sum w |v|^2, beside the bound of the net itself (MembraneNet::squaredFrequency). Of their
+/// dashpots nothing is implicit, because contacts take the mass of the grain alone for that. A servo has no
+/// mass, and a speed of its own (Kernel/Particles/Servo.h).
 ///
 /// Of grains that are no spheres (GrainShapes), contacts are where they touch, and have the radius that they
 /// have there. Where they may be by the next choice is not known: a small turn brings the contact of a flat
@@ -74,6 +83,8 @@ public:
                                     const ContactOutlook& outlook = {});
 
 private:
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+
     /// The springs (1/s^2) or dashpots (1/s) of a grain, over its mass and moment of inertia.
     struct GrainBlock {
         std::array<double, 6> shift{}, spin{};  // xx yy zz xy xz yz
@@ -84,12 +95,22 @@ private:
         Vector<double> normal;
         PressedPair pair{};
         ContactStiffness stiffness{};
-        double gap = 0;            // m
-        double reached = 0;        // m, overlap
-        double approach = 0;       // m/s
-        double smallerRadius = 0;  // m
-        bool drags = false;        // a bridge
-        bool isHeld = false;       // one of the grains, along some axes
+        double gap = 0;             // m
+        double reached = 0;         // m, overlap
+        double approach = 0;        // m/s
+        double smallerRadius = 0;   // m
+        bool drags = false;         // a bridge
+        bool isHeld = false;        // one of the grains, along some axes
+        std::uint32_t side = none;  // of wallSides, at a wall that forces move
+    };
+    /// The side of such a wall in a contact.
+    struct WallSide {
+        std::uint32_t wall;          // of movedWalls
+        Vector<double> arm;          // m, from the wall's centre
+        std::uint32_t triangle = 0;  // of a membrane
+        std::array<double, 3> weights{};
+        double spring = 0, dashpot = 0;  // 1/s^2, 1/s: in all directions together, over the wall's mass
+        double load = 0;  // 1/s^2, of the wall there by all of its contacts; 0: it does not move
     };
     /// A side of a contact of grains that are no spheres.
     struct ShapedSide {
@@ -112,7 +133,13 @@ private:
     struct OfBody : OfOne<BodyMatrix> {
         BodyMatrix friction{};  // the part of friction's springs in the spin
     };
-    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    struct MovedWall {
+        int number;
+        WallMotions motions{};       // of one that is no membrane
+        PressedVertices vertices{};  // of a membrane
+        OfBody block{};
+        double load = 0;  // 1/s^2, of all contacts
+    };
 
     void take(const ContactSystem& contacts, const WallHandler& walls, const ParticleStore& grains,
               const Bucket& bucket, const ContactOutlook& outlook);
@@ -169,7 +196,22 @@ private:
         return own > 0 && others > 0 ? others / own : 1;
     }
     /// What the grain at a place takes of the contact: 1 + t.
-    [[nodiscard]] double shareOf(const ParticleStore& grains, std::uint32_t place, std::uint32_t other) const;
+    [[nodiscard]] double shareOf(const ParticleStore& grains, const Term& term, std::uint32_t place,
+                                 std::uint32_t other) const;
+    // Of walls that forces move (ContactBoundOfWalls.cpp):
+    void findMovedWalls(const WallHandler& walls);
+    /// @param fromGrain m, from the grain's centre to the contact
+    void takeSide(const Wall& wall, int number, std::uint32_t part, const Vector<double>& position,
+                  const Vector<double>& fromGrain, Term& term);
+    void chooseWeightsOfWalls(const ParticleStore& grains, const AllRanks& ranks);
+    [[nodiscard]] double largestLoadOfWalls() const;
+    /// The weight of the grain in a contact with such a wall; 0 where the contact does not move the wall.
+    [[nodiscard]] double weightAtWall(const Term& term) const;
+    void addToWall(const Term& term);
+    void addToVertices(const WallSide& side, const ContactStiffness& stiffness, double share);
+    void takeLeastOfWalls(const ParticleStore& grains, const Integrator& integrator, const AllRanks& ranks,
+                          ContactBound& found);
+
     void addTo(const ParticleStore& grains, const Term& term, std::uint32_t place, std::uint32_t other);
     void addToBody(const ParticleStore& grains, const Term& term, std::uint32_t place, std::uint32_t other);
     /// What grain and body take note of in the same way.
@@ -197,7 +239,9 @@ private:
     std::vector<OfGrain> blocks;        // of the grains by place
     std::vector<OfBody> bodies;         // of the rigid bodies
     std::vector<std::uint32_t> movers;  // of each place; empty without bodies
-    std::vector<double> loads;          // 1/s^2, sum of spring over mass: of the grains, then of the bodies
+    std::vector<MovedWall> movedWalls;
+    std::vector<WallSide> wallSides;
+    std::vector<double> loads;  // 1/s^2, sum of spring over mass: of the grains, then of the bodies
     const PeriodicBox* box = nullptr;
     const GrainShapes* shapes = nullptr;  // null where grains are spheres
     // The parts of a wall that are near one grain, and their points.

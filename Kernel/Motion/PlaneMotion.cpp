@@ -7,6 +7,7 @@
 
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Math/ExactSum.h"
+#include "Kernel/Particles/DampedServo.h"
 
 namespace pendular {
 namespace {
@@ -51,10 +52,13 @@ double beginServo(const ContactSystem& contacts, const ParticleStore& grains, st
         // A bed is as soft as its layers one after the other: at least a contact's share of all grains.
         const double layers = static_cast<double>(contacts.ranks().sum(grains.count())) /
                               static_cast<double>(std::max<std::uint64_t>(drive.touches, 1));
-        drive.servo.look(dot(toVector(wall.getForce()), wall.drivenNormal()), asked.load,
-                         wallStiffness(contacts, grains, static_cast<int>(number)),
-                         static_cast<double>(interval) * step.length, asked.time,
-                         asked.time * std::max(servoDriftTimes, 4 * layers), asked.largestSpeed);
+        const SpringAndDashpot own = wallStiffness(contacts, grains, static_cast<int>(number));
+        // A time below a step: the mass of the grains leaves no room for a gain near 2.
+        const double ofStep = own.spring * std::max(0.0, step.length - asked.time);
+        lookBesideDashpots(drive.servo, dot(toVector(wall.getForce()), wall.drivenNormal()), asked.load,
+                           own.spring, own.dashpot + ofStep, static_cast<double>(interval) * step.length,
+                           asked.time, asked.time * std::max(servoDriftTimes, 4 * layers),
+                           asked.largestSpeed);
     }
     drive.velocity = drive.servo.speed;
     return step.length * drive.velocity;
@@ -98,21 +102,28 @@ void refuseEndlessWay(std::size_t number, const InfiniteWall& wall, PlaneDrive& 
 
 bool PlaneMotion::canMove(const Wall& wall) { return dynamic_cast<const InfiniteWall*>(&wall) != nullptr; }
 
-double wallStiffness(const ContactSystem& contacts, const ParticleStore& grains, int wall) {
-    ExactSum sum;
+SpringAndDashpot wallStiffness(const ContactSystem& contacts, const ParticleStore& grains, int wall) {
+    ExactSum springs, dashpots;
     const ContactStore& store = contacts.store();
     for (const Bucket& bucket : store.buckets) {
         if (bucket.wall != wall) continue;
+        const int a = bucket.species1, b = bucket.species2;
+        const bool resists = contacts.laws().ofPair(a, b).resistsMotion;
         for (std::uint32_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c) {
             if (!store.acts(c)) continue;
             const double overlap = -contacts.observe(grains, bucket, c).separation;
-            const double radius = grains.translation[store.firstOf(c)].radius;
-            if (overlap > 0)
-                sum.add(contacts.laws().normalStiffness(bucket.species1, bucket.species2, {radius, infinity},
-                                                        overlap));
+            const TranslationRecord& grain = grains.translation[store.firstOf(c)];
+            const Bodies bodies{grain.radius, infinity};
+            if (overlap > 0) springs.add(contacts.laws().normalStiffness(a, b, bodies, overlap));
+            if (!(overlap > 0 || resists) || grain.inverseMass == 0) continue;
+            const PressedPair pair{bodies, 1 / grain.inverseMass, std::max(overlap, 1e-6 * grain.radius)};
+            ContactStiffness found;
+            contacts.laws().ofPair(a, b).stiffnesses(a, b, {&pair, 1}, {&found, 1});
+            dashpots.add(found.normal.dashpot);
         }
     }
-    return contacts.ranks().sum(sum);
+    contacts.ranks().addUp({&springs, &dashpots});
+    return {springs.value(), dashpots.value()};
 }
 
 void PlaneMotion::begin(const WallHandler& walls, const ContactSystem& contacts, const ParticleStore& grains,

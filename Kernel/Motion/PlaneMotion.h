@@ -47,7 +47,9 @@ private:
     std::vector<Before> before;
 };
 
-/// The stiffness (N/m) of the normal springs of all contacts with a wall, exactly summed.
-[[nodiscard]] double wallStiffness(const ContactSystem& contacts, const ParticleStore& grains, int wall);
+/// The normal springs and dashpots of all contacts with a wall, exactly summed. The dashpots are those that
+/// answer a speed of the wall: of contacts that overlap, and of bridges that resist motion.
+[[nodiscard]] SpringAndDashpot wallStiffness(const ContactSystem& contacts, const ParticleStore& grains,
+                                             int wall);
 
 }  // namespace pendular

@@ -253,7 +253,45 @@ double shortestHalfPeriod(const ContactLaws& species, const GrainSizes& grains, 
     forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
         shortest = std::min(shortest, halfPeriod(laws, bodies, mass));
     });
+    for (std::size_t w = 0; w < walls.getSize(); ++w) {
+        const double mobility = walls.isRemoved(w) ? 0 : mobilityOfWall(walls.getObject(w));
+        if (!(mobility > 0)) continue;
+        for (std::size_t s = 0; s < grains.free.size(); ++s) {
+            if (grains.free[s].empty()) continue;
+            const PairLaws laws{species, static_cast<int>(s), walls.getObject(w).getSpeciesIndex()};
+            for (const double radius : {grains.free[s].smallest, grains.free[s].largest}) {
+                const double mass = species.massOf(s, radius);
+                shortest = std::min(shortest, halfPeriod(laws, Bodies{radius, infinity}, mass) /
+                                                  std::sqrt(1 + mass * mobility));
+            }
+        }
+    }
     return shortest;
+}
+
+double mobilityOfWall(const Wall& wall) {
+    if (const WallBody* const body = wall.body()) return body->mobility();
+    const PlaneDrive* const drive = wall.drive();
+    return drive && drive->isPiston() ? 1 / drive->asked.mass : 0;
+}
+
+double limitOfMovedWalls(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                         const Integrator& integrator) {
+    double limit = infinity;
+    for (std::size_t w = 0; w < walls.getSize(); ++w) {
+        const Wall& wall = walls.getObject(w);
+        if (walls.isRemoved(w)) continue;
+        limit = std::min(limit, membraneLimit(species, grains, wall, integrator));
+        if (!(mobilityOfWall(wall) > 0)) continue;
+        const SpringAndDashpot row = pistonRow(species, grains, wall).shift;
+        for (std::size_t s = 0; s < grains.free.size(); ++s) {
+            if (grains.free[s].empty()) continue;
+            const double mass = species.massOf(s, grains.free[s].smallest);
+            const SpringAndDashpot mode = row + (1 / mass) * stiffestAt(species, grains, wall);
+            limit = std::min(limit, stabilityMargin * SignChange(integrator).limit(mode));
+        }
+    }
+    return limit;
 }
 
 double stepOfFastestPair(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls) {

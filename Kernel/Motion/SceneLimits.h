@@ -74,8 +74,18 @@ void checkPistons(const ContactLaws& species, const GrainSizes& grains, const Wa
 /// How many walls there are, without those that were removed.
 [[nodiscard]] std::size_t numberOfWalls(const WallHandler& walls);
 
+/// 1/kg, the most by which a contact moves a wall that forces move (a piston, a slider, a rotor, a free body)
+/// where it is touched; 0 of others. A membrane has limits of its own.
+[[nodiscard]] double mobilityOfWall(const Wall& wall);
+
+/// The step (s) above which a wall that forces move is no longer integrated stably against the grains that
+/// touch it: k (1/m + n/M), and so its dashpots, of which nothing is implicit; membranes as in
+/// sceneStabilityLimit(). Infinite without such walls. For steps that grains bear above the stability limit.
+[[nodiscard]] double limitOfMovedWalls(const ContactLaws& species, const GrainSizes& grains,
+                                       const WallHandler& walls, const Integrator& integrator);
+
 /// Half a period (s) of the fastest oscillation that two bodies of the scene can have; infinite without
-/// grains.
+/// grains. A wall that forces move is a body.
 double shortestHalfPeriod(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls);
 
 /// 0.9 over the highest frequency of two bodies of the scene (s), up to which figures of beds and flows were

@@ -105,9 +105,11 @@ PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& 
     };
     const auto addTo1 = [&](const ObservedContact& seen) {
         const std::uint32_t place = grains.place[seen.particle1];
-        if (shapes)
-            return add(seen.particle1, 1, seen.point - grains.translation[place].position + arms.at(place),
-                       seen.force);
+        if (shapes) {
+            Vector<double> branch = seen.point - grains.translation[place].position;
+            if (seen.wall >= 0) branch += (0.5 * seen.overlap()) * seen.normal();
+            return add(seen.particle1, 1, branch + arms.at(place), seen.force);
+        }
         const Vector<double> normal = (1 / norm(seen.shift)) * seen.shift;
         add(seen.particle1, 1,
             (grains.translation[place].radius + 0.5 * seen.separation) * normal + arms.at(place), seen.force);

@@ -31,8 +31,9 @@ PolyData grainPoints(const ParticleStore& grains, const ContactLaws& laws, bool 
 /// sigma = sum over its contacts of l f / V, with the branch l (m) from the centre to the contact point, the
 /// force f (N) on the grain and its volume V (m^3). Source: Love, "A Treatise on the Mathematical Theory of
 /// Elasticity" (1927); Weber, Bull. Liaison Ponts Chauss. 20 (1966). The contact point lies in the middle of
-/// the overlap or of the gap. The grains of a rigid body have the mean stress of the body: with the branches
-/// from its centre of mass, over its volume.
+/// the overlap or of the gap, at a wall, too, where the branch of meanStress() goes to the wall's surface.
+/// The grains of a rigid body have the mean stress of the body: with the branches from its centre of mass,
+/// over its volume.
 template <std::floating_point Real = float>
 PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& grains,
                             const ContactLaws& laws);

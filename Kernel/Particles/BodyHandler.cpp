@@ -16,6 +16,12 @@ namespace pendular {
 
 namespace {
 
+Quaternion quaternionOf(const Eigen::Quaterniond& q) { return {q.w(), toVector(q.vec())}; }
+Eigen::Quaterniond toEigen(const Quaternion& q) {
+    return {q.real, q.imaginary.x, q.imaginary.y, q.imaginary.z};
+}
+using pendular::toEigen;
+
 /// A grain that is to be joined.
 struct Sphere {
     double mass, radius, film;                // kg, m, kg
@@ -143,9 +149,9 @@ std::size_t BodyReference::at() const {
     return found;
 }
 Eigen::Quaterniond BodyReference::getOrientation() const {
-    const Quaternion& q = body().orientation;
-    return {q.real, q.imaginary.x, q.imaginary.y, q.imaginary.z};
+    return toEigen(handler->store().bodies.orientationOf(at()));
 }
+Eigen::Quaterniond BodyReference::getPrincipalAxes() const { return toEigen(body().orientation); }
 std::vector<std::uint32_t> BodyReference::getGrains() const {
     std::vector<std::uint32_t> all;
     for (const BodyMember& member : handler->store().bodies.membersOf(at())) all.push_back(member.grain);
@@ -200,7 +206,8 @@ BodyHandler::Solid BodyHandler::solidOf(const std::vector<Ball>& spheres) {
 }
 
 BodyReference BodyHandler::join(std::span<const std::uint32_t> identities,
-                                const std::optional<BodyMass>& mass, const Solid* known) {
+                                const std::optional<BodyMass>& mass, const Solid* known,
+                                const Eigen::Quaterniond& turn) {
     const HeldBits held = requireJoinable(particles, identities);
     const std::vector<Sphere> wet = spheresOf(particles, periodic, identities), spheres = drySpheres(wet);
     const SphereSums sums = sumSpheres(wet), solid = sumSpheres(spheres);
@@ -221,7 +228,7 @@ BodyReference BodyHandler::join(std::span<const std::uint32_t> identities,
                    .velocity = toVector(sums.velocity + spin.cross(own.centre - sums.centre)),
                    .acceleration = toVector(sums.acceleration),
                    .torque = toVector(sums.torque),
-                   .orientation = {principal.axes.w(), toVector(principal.axes.vec())},
+                   .orientation = quaternionOf(principal.axes),
                    .largestFreeMass = solid.largest};
     body.setSpin(toVector(spin));
     const Vec3D gravity = toEigen(ParticleHandler::Inside::gravityOf(particles));
@@ -231,7 +238,8 @@ BodyReference BodyHandler::join(std::span<const std::uint32_t> identities,
     }
     std::vector<Ball> balls;
     for (const Sphere& sphere : spheres) balls.push_back({sphere.position, sphere.radius});
-    const BodyReference added = add(body, identities, balls, known, isSphere);
+    const BodyReference added =
+        add(body, identities, balls, known, isSphere, quaternionOf(turn.conjugate()) * body.orientation);
     RigidBodies& bodies = particles.store().bodies;
     if (!particles.store().earlier.empty()) {
         if (bodies.earlier.size() != bodies.size()) bodies.startEarlier(true);
@@ -258,7 +266,8 @@ void BodyHandler::holdAsJoined(HeldBits held) {
 
 /// A single sphere is left as it is.
 BodyReference BodyHandler::add(RigidBody body, std::span<const std::uint32_t> identities,
-                               const std::vector<Ball>& spheres, const Solid* known, bool isSphere) {
+                               const std::vector<Ball>& spheres, const Solid* known, bool isSphere,
+                               const Quaternion& frame) {
     const Solid solid = known ? *known : solidOf(spheres);
     std::vector<BodyMember> members;
     for (std::size_t k = 0; k < spheres.size(); ++k)
@@ -266,7 +275,7 @@ BodyReference BodyHandler::add(RigidBody body, std::span<const std::uint32_t> id
                            body.orientation.turnBack(toVector(spheres[k].centre) - body.position),
                            solid.exposed[k]});
     ParticleStore& grains = particles.store();
-    const std::uint32_t number = grains.bodies.add(body, members, solid.volume);
+    const std::uint32_t number = grains.bodies.add(body, members, solid.volume, frame);
     if (!isSphere) grains.bodies.place(grains, grains.bodies.size() - 1);
     ParticleHandler::Inside::noteJoined(particles, identities);
     return {particles, number};
@@ -297,8 +306,8 @@ BodyReference BodyHandler::joinWithMotion(std::span<const std::uint32_t> identit
     const ClumpTemplate& shape = clump.getTemplate();
     const double scale = clump.getScale();
     const Solid solid{scale * scale * scale * shape.getVolume(), shape.getExposedShares()};
-    if (shape.isSphere()) return join(identities, {}, &solid);
-    BodyReference body = join(identities, mass, &solid);
+    if (shape.isSphere()) return join(identities, {}, &solid, clump.getOrientation());
+    BodyReference body = join(identities, mass, &solid, clump.getOrientation());
     body.setVelocity(clump.getVelocity());
     body.setAngularVelocity(clump.getAngularVelocity());
     return body;
@@ -328,6 +337,11 @@ void BodyHandler::removeObject(std::size_t number) {
     ParticleStore& grains = particles.store();
     grains.bodies.remove(grains.bodies.find(number));
     for (const std::uint32_t identity : identities) particles.removeObject(identity);
+}
+
+std::size_t BodyHandler::getSize() const {
+    ParticleHandler::Inside::requireAll(particles, "bodyHandler.getSize()");
+    return particles.store().bodies.size();
 }
 
 BodyReference BodyHandler::getObject(std::size_t number) {

@@ -34,8 +34,12 @@ public:
     [[nodiscard]] Vec3D getForce() const { return body().mass * toEigen(body().acceleration); }
     /// N m, of all contacts about the centre of mass, in the last step.
     [[nodiscard]] Vec3D getTorque() const { return toEigen(body().torque); }
-    /// Turns the principal axes into space.
+    /// Turns the shape into space, as setOrientation() of Clump and of shaped grains does: of a clump the
+    /// frame of its template, of a superquadric or a block its axes; of grains that were joined, from how
+    /// they were then.
     [[nodiscard]] Eigen::Quaterniond getOrientation() const;
+    /// Turns the principal axes, about which getInertia() is, into space.
+    [[nodiscard]] Eigen::Quaterniond getPrincipalAxes() const;
     /// The identities of its grains.
     [[nodiscard]] std::vector<std::uint32_t> getGrains() const;
 
@@ -73,7 +77,7 @@ public:
     /// an inertia that no body can have.
     /// @param mass its centre is in space, as the grains are now
     BodyReference join(std::span<const std::uint32_t> identities, const std::optional<BodyMass>& mass = {}) {
-        return join(identities, mass, nullptr);
+        return join(identities, mass, nullptr, Eigen::Quaterniond::Identity());
     }
     BodyReference join(std::initializer_list<std::uint32_t> identities,
                        const std::optional<BodyMass>& mass = {}) {
@@ -89,7 +93,8 @@ public:
     /// Removes a body and all its grains.
     void removeObject(std::size_t number);
 
-    [[nodiscard]] std::size_t getSize() const { return particles.store().bodies.size(); }
+    /// Throws InputError where each rank of a scene has its own bodies only, until gather().
+    [[nodiscard]] std::size_t getSize() const;
     [[nodiscard]] bool isEmpty() const { return getSize() == 0; }
     /// The body with this number. Throws InputError if there is none.
     [[nodiscard]] BodyReference getObject(std::size_t number);
@@ -103,12 +108,14 @@ private:
         std::vector<double> exposed;  // of each sphere, as BodyMember has it
     };
     static Solid solidOf(const std::vector<Ball>& spheres);
+    /// @param turn turns the shape, as it was given, to where the grains are
     BodyReference join(std::span<const std::uint32_t> identities, const std::optional<BodyMass>& mass,
-                       const Solid* known);
+                       const Solid* known, const Eigen::Quaterniond& turn);
     BodyReference joinWithMotion(std::span<const std::uint32_t> identities, const Clump& clump,
                                  const BodyMass& mass);
     BodyReference add(RigidBody body, std::span<const std::uint32_t> identities,
-                      const std::vector<Ball>& spheres, const Solid* known, bool isSphere);
+                      const std::vector<Ball>& spheres, const Solid* known, bool isSphere,
+                      const Quaternion& frame);
 
     void holdAsJoined(HeldBits held);
 

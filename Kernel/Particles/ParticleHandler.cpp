@@ -347,13 +347,23 @@ GrainReference ParticleHandler::getObject(std::size_t identity) {
     return {*this, static_cast<std::uint32_t>(identity)};
 }
 
+void ParticleHandler::refusePart(std::string_view what) {
+    throw InputError(fmt::format(
+        "Simulation: {} needs all grains, and each rank of a scene on several ranks (mpirun, setRanks()) has "
+        "its own ones only: call gather() before, on all ranks; or loop over particleHandler.ownGrains() to "
+        "change each grain by itself, and sum over all ranks by sumOverGrains() or sumOverInteractions().",
+        what));
+}
+
 GrainReference ParticleHandler::getLastObject() {
+    requireAll("getLastObject()");
     if (isEmpty()) throw InputError("ParticleHandler: getLastObject() needs a grain, and there is none.");
     return {*this, grains.place.last()};
 }
 
 GrainReference ParticleHandler::firstBy(std::string_view call,
                                         const std::function<bool(double, double)>& isBefore) {
+    requireAll(call);
     if (isEmpty())
         throw InputError(fmt::format("ParticleHandler: {} needs a grain, and there is none.", call));
     std::uint32_t found = *grains.place.begin();

@@ -147,8 +147,8 @@ public:
     /// rigid body.
     void removeObject(std::size_t identity);
 
-    /// How many grains there are.
-    [[nodiscard]] std::size_t getSize() const { return grains.count(); }
+    /// How many grains there are; in a scene on several ranks, on all of them together.
+    [[nodiscard]] std::size_t getSize() const { return grains.isShared ? countOfAll() : grains.count(); }
     /// The same, under MercuryDPM's name.
     [[nodiscard]] std::size_t getNumberOfObjects() const { return getSize(); }
     [[nodiscard]] bool isEmpty() const { return getSize() == 0; }
@@ -156,9 +156,11 @@ public:
     [[nodiscard]] GrainReference getObject(std::size_t identity);
     /// The same, under MercuryDPM's name.
     [[nodiscard]] GrainReference getParticleById(std::size_t identity) { return getObject(identity); }
-    /// The grain that was added last, of those that there are. Throws InputError if there is none.
+    /// The grain that was added last, of those that there are. Throws InputError if there is none, and as
+    /// begin() does.
     [[nodiscard]] GrainReference getLastObject();
-    /// The first with the smallest, or the largest, radius. Throw InputError if there is no grain.
+    /// The first with the smallest, or the largest, radius. Throw InputError if there is no grain, and as
+    /// begin() does.
     [[nodiscard]] GrainReference getSmallestParticle();
     [[nodiscard]] GrainReference getLargestParticle();
     /// Removes all grains that are in no rigid body.
@@ -170,7 +172,8 @@ public:
 
     /// Over all grains that there are at its begin, in the order of their identities:
     /// for (GrainReference grain : particleHandler). What is added on the way is not visited; the grain
-    /// itself may be removed.
+    /// itself may be removed. Throws InputError where each rank of a scene has its own grains only, because a
+    /// part must not be taken for the whole: call gather() before, or loop over ownGrains().
     class Iterator {
     public:
         Iterator(ParticleHandler& particles, PlaceIndex::Iterator position)
@@ -193,8 +196,27 @@ public:
         PlaceIndex::Iterator at;
         std::uint32_t bound;  // the identity of the first that is not visited
     };
-    [[nodiscard]] Iterator begin() { return {*this, grains.place.begin()}; }
+    [[nodiscard]] Iterator begin() {
+        requireAll("a loop over particleHandler");
+        return {*this, grains.place.begin()};
+    }
     [[nodiscard]] Iterator end() { return {*this, grains.place.end()}; }
+
+    /// The grains that this rank owns, in the order of their identities; on one rank, and after gather(), all
+    /// of them. Each grain is owned by one rank, so that this loop changes each of them once:
+    /// for (GrainReference grain : particleHandler.ownGrains()). Sums over all ranks: SumsOverRanks.h.
+    class OwnGrains {
+    public:
+        explicit OwnGrains(ParticleHandler& particles) : handler(&particles) {}
+        [[nodiscard]] Iterator begin() const { return {*handler, handler->grains.place.begin()}; }
+        [[nodiscard]] Iterator end() const { return handler->end(); }
+        [[nodiscard]] std::size_t size() const { return handler->grains.count(); }
+        [[nodiscard]] bool empty() const { return size() == 0; }
+
+    private:
+        ParticleHandler* handler;
+    };
+    [[nodiscard]] OwnGrains ownGrains() { return OwnGrains(*this); }
 
     /// A number that is kept of each grain from now on, by name. It is in restart files and in the outputs of
     /// fields, there as NAME_UNIT. At set-up only. Throws InputError for a name that is there already.
@@ -211,8 +233,9 @@ public:
     [[nodiscard]] double massAt(std::uint32_t place) const;
 
     void visitState(StateArchive& archive);
-    /// Ask for it again after each step: a step that ends where nobody looks is finished when it is asked
-    /// for.
+    /// The columns in which the kernel keeps the grains. In a scene on several ranks they are those of this
+    /// rank, with copies of others (ghosts) behind them. Ask for it again after each step: a step that ends
+    /// where nobody looks is finished when it is asked for.
     [[nodiscard]] Grains& store() {
         finishStep();
         return grains;
@@ -238,6 +261,11 @@ private:
     friend class GrainReference;
     friend class GrainColumnReference;
 
+    /// Throws InputError where other ranks have grains that are not here. @param what needs all of them
+    void requireAll(std::string_view what) const {
+        if (grains.isShared) refusePart(what);
+    }
+    [[noreturn]] static void refusePart(std::string_view what);
     [[nodiscard]] GrainReference firstBy(std::string_view call,
                                          const std::function<bool(double, double)>& isBefore);
     void setSpecies(const GrainSpecies& of);
@@ -272,6 +300,7 @@ private:
     double liquidDensity = 0;         // kg/m^3
     std::function<void(std::uint32_t)> beforeRemoval;
     std::function<void()> finishing;
+    std::function<std::size_t()> countOfAll;
     mutable std::atomic<bool> unfinished = false;
     mutable std::mutex finishingNow;
 };

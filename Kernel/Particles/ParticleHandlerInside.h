@@ -60,6 +60,14 @@ public:
     /// The same where only films have changed.
     static void weighFilms(ParticleHandler& of) { of.weighFilms(); }
 
+    /// Throws InputError where other ranks have grains that are not here. @param what needs all of them
+    static void requireAll(const ParticleHandler& of, std::string_view what) { of.requireAll(what); }
+
+    /// What knows how many grains all ranks have together, where each has its own ones only.
+    static void callToCountAll(ParticleHandler& of, std::function<std::size_t()> function) {
+        of.countOfAll = std::move(function);
+    }
+
     /// The scene begins: no column is added from now on.
     static void closeColumns(ParticleHandler& of) { of.columnsAreClosed = true; }
     /// Grains have been joined to a rigid body.

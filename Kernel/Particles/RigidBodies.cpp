@@ -40,7 +40,7 @@ void RigidBodies::reorder(std::span<const std::uint32_t> order) {
         }
         newBegins.push_back(static_cast<std::uint32_t>(orderOfMembers.size()));
     }
-    permute(bodies, order), permute(volumes, order), permute(numbers, order);
+    permute(bodies, order), permute(volumes, order), permute(frames, order), permute(numbers, order);
     permute(held, order), permute(earlier, order), permute(dry, order);
     permute(members, orderOfMembers), permute(dryArms, orderOfMembers), permute(films, orderOfMembers);
     begins.swap(newBegins);
@@ -79,9 +79,19 @@ double RigidBodies::exposedShareOf(std::uint32_t grain) const {
     return std::ranges::find(membersOf(find(body)), grain, &BodyMember::grain)->exposed;
 }
 
-std::uint32_t RigidBodies::add(const RigidBody& body, std::span<const BodyMember> grains, double volume) {
+static Quaternion inverse(const Quaternion& q) { return {q.real, -q.imaginary}; }
+
+Quaternion RigidBodies::orientationOf(std::size_t at) const {
+    const Quaternion ofDry =
+        dry.empty() ? bodies[at].orientation : bodies[at].orientation * inverse(dry[at].axes);
+    return (ofDry * inverse(frames[at])).normalised();
+}
+
+std::uint32_t RigidBodies::add(const RigidBody& body, std::span<const BodyMember> grains, double volume,
+                               const Quaternion& frame) {
     bodies.push_back(body);
     volumes.push_back(volume);
+    frames.push_back(frame);
     numbers.push_back(next);
     members.insert(members.end(), grains.begin(), grains.end());
     forgetPlaces();
@@ -116,6 +126,7 @@ void RigidBodies::remove(std::size_t at) {
     for (std::size_t k = at; k < begins.size(); ++k) begins[k] -= count;
     bodies.erase(bodies.begin() + static_cast<std::ptrdiff_t>(at));
     volumes.erase(volumes.begin() + static_cast<std::ptrdiff_t>(at));
+    frames.erase(frames.begin() + static_cast<std::ptrdiff_t>(at));
     numbers.erase(numbers.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
@@ -286,6 +297,9 @@ void RigidBodies::visitState(StateArchive& archive, const ParticleStore& grains)
         archive.column<double>("volumes", volumes);
         archive.column<double>("exposed", exposed);
     }
+    // Of older files the shapes' own frames are not known: they count as given along the principal axes.
+    if (archive.isReading()) frames.assign(bodies.size(), Quaternion{});
+    if (archive.isWriting() || archive.holds("frames")) archive.column<double>("frames", frames);
     if (archive.isReading()) earlier.clear();
     if (archive.isWriting() ? !earlier.empty() : archive.holds("earlier")) {
         archive.column<double>("earlier", earlier);
@@ -327,6 +341,13 @@ void RigidBodies::requireWhole(const StateArchive& archive, const ParticleStore&
         archive.require(std::abs(q.real * q.real + squaredNorm(q.imaginary) - 1) < 1e-6, "motion",
                         "has an orientation that is no rotation");
     }
+    archive.require(
+        frames.size() == size() &&
+            std::ranges::all_of(frames,
+                                [](const Quaternion& q) {
+                                    return std::abs(q.real * q.real + squaredNorm(q.imaginary) - 1) < 1e-6;
+                                }),
+        "frames", "does not have a rotation of each body");
     archive.require(numbers.size() == size() &&
                         std::ranges::adjacent_find(numbers, std::greater_equal{}) == numbers.end(),
                     "numbers", "does not have the number of each body");

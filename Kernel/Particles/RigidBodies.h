@@ -134,6 +134,8 @@ public:
 
     /// m^3, of the solid that its grains stand for, overlaps counted once.
     [[nodiscard]] double volumeOf(std::size_t at) const { return volumes[at]; }
+    /// Turns the shape of a body as it was given into space; its principal axes are bodies[at].orientation.
+    [[nodiscard]] Quaternion orientationOf(std::size_t at) const;
     /// m, of the grain at each place: from the centre of mass of its body to its own centre, in space; zeros
     /// for grains in none. Empty without bodies.
     [[nodiscard]] std::vector<Vector<double>> armsInSpace(const ParticleStore& grains) const;
@@ -177,7 +179,9 @@ public:
 
     /// Returns the number of the new body: in the order of adding; no number is given twice.
     /// @param volume m^3, as of volumeOf()
-    std::uint32_t add(const RigidBody& body, std::span<const BodyMember> grains, double volume);
+    /// @param frame turns its principal axes into the frame in which its shape is given
+    std::uint32_t add(const RigidBody& body, std::span<const BodyMember> grains, double volume,
+                      const Quaternion& frame = {});
     /// Removes the body at a place, not its grains.
     void remove(std::size_t at);
 
@@ -187,6 +191,7 @@ public:
     template <class Function>
     void writeRow(std::size_t at, Function&& write) const {
         write(numbers[at]), write(begins[at + 1] - begins[at]), write(bodies[at]), write(volumes[at]);
+        write(frames[at]);
         writeOne(held, at, write), writeOne(earlier, at, write), writeOne(dry, at, write);
         for (std::uint32_t m = begins[at]; m < begins[at + 1]; ++m) {
             write(members[m]);
@@ -198,6 +203,7 @@ public:
     void takeRow(Function&& take, bool isGhost) {
         std::uint32_t count = 0;
         take(numbers.emplace_back()), take(count), take(bodies.emplace_back()), take(volumes.emplace_back());
+        take(frames.emplace_back());
         takeOne(held, take), takeOne(earlier, take), takeOne(dry, take);
         for (; count > 0; --count) {
             take(members.emplace_back());
@@ -291,6 +297,7 @@ private:
     std::size_t ghosts = 0;  // the last bodies
     std::vector<RigidBody> bodies;
     std::vector<double> volumes;          // m^3, of each
+    std::vector<Quaternion> frames;       // of each without films: see add()
     std::vector<HeldBody> held;           // of each; empty while none is held
     std::vector<DryBody> dry;             // of each; empty while films have no mass
     std::vector<Vector<double>> dryArms;  // m, of each of `members`, in its dry body; empty as `dry`

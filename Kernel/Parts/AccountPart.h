@@ -18,6 +18,8 @@ public:
     void afterMotion(StepContext& step) override;
     void finish(StepContext& step) override;
     void takeBack(StepContext& step) override;
+    /// visitSetting() compares them.
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}
     void visitSetting(StateArchive& archive, StepContext& scene) override;
     void addTo(SummaryRows& rows) const override;
 

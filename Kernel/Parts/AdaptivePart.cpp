@@ -69,7 +69,7 @@ void AdaptivePart::afterMotion(StepContext& step) {
 }
 
 void AdaptivePart::afterForces(StepContext& step) {
-    if (step.contacts.ranks().any(step.contacts.overlaps().hasExceededExpected()))
+    if (step.contacts.ranks().any(step.contacts.ownOverlaps().hasExceededExpected()))
         adaptive.noteDeeperOverlap();
 }
 

@@ -22,6 +22,8 @@ public:
     void prepare(StepContext& step) override;
     void afterMotion(StepContext& step) override;
     void afterForces(StepContext& step) override;
+    /// visitSetting() compares them.
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}
     void visitSetting(StateArchive& archive, StepContext& scene) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
     void addTo(SummaryRows& rows) const override;

@@ -19,6 +19,8 @@ public:
     void moveGrains(StepContext& step) override;
     /// A scene that is strained may become too short for a body.
     void afterMotion(StepContext& step) override;
+    /// It has no settings: bodies are part of the state.
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}
     void takeBack(StepContext& step) override;
 
     /// m, of the widest body that is there or to come, as it turns; 0 without any

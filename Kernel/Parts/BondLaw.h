@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -102,7 +103,7 @@ struct BondStrength {
     double tensile = infinity, shear = infinity;  // Pa
     double momentShare = 1;                       // s, 0 to 1: how much moments count
     /// The bending moment is that in the middle of the bond, as for Potyondy and Cundall, or the larger one
-    /// of its ends, as in a beam.
+    /// of its two ends, as in a beam. Both are vectors across the bond.
     bool atEnds = true;
 };
 
@@ -111,12 +112,15 @@ struct SectionLoad {
     double tension, shear;    // N; pressure is negative
     double bending, torsion;  // N m
 
+    /// The moment along a beam goes in a straight line from -t1 to t2, the torques on its ends: in the middle
+    /// it is (t2 - t1) / 2, and nowhere larger than at one of the ends.
     SectionLoad(const BondState& bond, const BondLoad& load, bool atEnds) {
-        const Vector<double> e = bond.axis(), half = 0.5 * (load.torque2 - load.torque1);
+        const Vector<double> e = bond.axis(), middle = 0.5 * (load.torque2 - load.torque1);
+        const auto across = [&](const Vector<double>& moment) { return norm(moment - dot(moment, e) * e); };
         tension = -dot(load.force, e);
         shear = norm(load.force + tension * e);
-        torsion = std::abs(dot(half, e));
-        bending = norm(half - dot(half, e) * e) + (atEnds ? 0.5 * shear * bond.length : 0);
+        torsion = std::abs(dot(middle, e));
+        bending = atEnds ? std::max(across(load.torque1), across(load.torque2)) : across(middle);
     }
     [[nodiscard]] bool breaks(const BondStrength& strength, const BondSection& s) const {
         return tension / s.area() + strength.momentShare * bending * s.radius / s.inertia() >=

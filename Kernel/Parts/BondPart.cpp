@@ -546,7 +546,7 @@ static std::string text(const BondStiffness& k) {
 }
 
 /// Materials are those with which the run began; stiffnesses are compared for each bond, by visitState().
-void BondPart::visitMaterials(StateArchive& archive) const {
+void BondPart::compareSetUp(StateArchive& archive, StepContext& /*scene*/) {
     archive.same("materials", static_cast<std::uint64_t>(materials.size()));
     for (std::size_t k = 0; k < materials.size(); ++k)
         archive.group(fmt::format("material{}", k), [&] {
@@ -601,7 +601,6 @@ void BondPart::visitState(StateArchive& archive, StepContext& /*scene*/) {
         motions.push_back(
             {one.orientation, one.force, one.torque, one.acceleration, one.angularAcceleration});
     }
-    visitMaterials(archive);
     visitWaiting(archive);
     archive.column<std::uint32_t>("pairs", pairs);
     archive.column<double>("numbers", ofBonds);

@@ -69,6 +69,7 @@ public:
     void finish(StepContext& step) override;
     void takeOver(StepContext& /*scene*/, const SceneChanges& /*changes*/) override { longest.reset(); }
     void takeBack(StepContext& step) override;
+    void compareSetUp(StateArchive& archive, StepContext& scene) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
     void addTo(SummaryRows& rows) const override;
 
@@ -121,7 +122,6 @@ private:
     void joinNew(StepContext& step);
     void renewForces(StepContext& step);
     void addWork(const StepContext& step, const Bond& bond, Work& work) const;
-    void visitMaterials(StateArchive& archive) const;
     void visitWaiting(StateArchive& archive);
     static void changeAcceleration(ParticleStore& grains, std::uint32_t place, const Vector<double>& force,
                                    const Vector<double>& torque);

@@ -18,6 +18,8 @@ public:
     void prepare(StepContext& step) override;
     void moveSurroundings(StepContext& step) override;
     void accelerate(StepContext& step) override;
+    /// Walls compare what drives them.
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}
     void takeBack(StepContext& step) override;
     void addTo(SummaryRows& rows) const override;
 

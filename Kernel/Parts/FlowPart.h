@@ -44,6 +44,8 @@ public:
     /// Throws RunError where a wall has turned so that the flow would carry images through it.
     void afterMotion(StepContext& step) override;
     void takeBack(StepContext& step) override;
+    /// visitSetting() compares them.
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}
     void visitSetting(StateArchive& archive, StepContext& scene) override;
 
     // The functions of Scene with these names call these:

@@ -24,6 +24,10 @@ void FluxPlanePart::afterMotion(StepContext& step) {
 
 void FluxPlanePart::takeBack(StepContext& /*step*/) { planes.takeBack(); }
 
+void FluxPlanePart::compareSetUp(StateArchive& archive, StepContext& /*scene*/) {
+    planes.compareSetUp(archive);
+}
+
 void FluxPlanePart::visitState(StateArchive& archive, StepContext& /*scene*/) { planes.visitState(archive); }
 
 void FluxPlanePart::addTo(SummaryRows& rows) const {

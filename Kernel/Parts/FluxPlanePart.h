@@ -17,6 +17,7 @@ public:
     void beforeMotion(StepContext& step) override;
     void afterMotion(StepContext& step) override;
     void takeBack(StepContext& step) override;
+    void compareSetUp(StateArchive& archive, StepContext& scene) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
     void addTo(SummaryRows& rows) const override;
 

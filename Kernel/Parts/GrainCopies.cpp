@@ -535,22 +535,35 @@ void GrainCopies::makeOne(StepContext& step, std::uint32_t identity, const Image
     copies[made] = identity;
 }
 
-/// The faces, as a run that goes on must have them.
-std::vector<double> GrainCopies::numbersOfFaces() const {
-    std::vector<double> numbers;
-    const auto add = [&](const Vec3D& v) { numbers.insert(numbers.end(), v.begin(), v.end()); };
-    for (const Passage& passage : passages) {
-        for (const int face : {0, 1}) add(passage.outwards[face]), add(passage.points[face]);
-        if (passage.angle == 0) add(passage.shift(0)), add(passage.velocity(0));
-        for (const double number : {passage.angle, passage.gap, static_cast<double>(passage.kind)})
-            numbers.push_back(number);
+/// A shift that depends on the time is compared by its values at the start and now.
+void GrainCopies::Passage::compareSetUp(StateArchive& archive, double now) const {
+    const auto compare = [&](std::string_view name, const Vec3D& v, std::string_view unit) {
+        archive.sameRecord<double>(name, toVector(v), unit);
+    };
+    constexpr std::array<std::string_view, 2> normals{"lowerNormal", "higherNormal"},
+        places{"lowerPoint", "higherPoint"};
+    for (const std::size_t face : {0u, 1u}) {
+        compare(normals[face], outwards[face], "");
+        compare(places[face], points[face], "m");
     }
-    return numbers;
+    const auto compareFunction = [&](std::string_view name, const std::function<Vec3D(double)>& of,
+                                     std::string_view unit) {
+        const Vec3D first = of(0), last = of(now);
+        archive.sameValues(name, {first.x(), first.y(), first.z(), last.x(), last.y(), last.z()}, unit);
+    };
+    if (angle == 0) compareFunction("shift", shift, "m"), compareFunction("velocity", velocity, "m/s");
+    archive.same("angle", angle, "rad");
+    archive.same("gap", gap, "m");
+    archive.same("kind", static_cast<int>(kind));
+}
+
+void GrainCopies::compareSetUp(StateArchive& archive, StepContext& scene) {
+    archive.same("count", static_cast<std::uint64_t>(passages.size()));
+    for (std::size_t k = 0; k < passages.size(); ++k)
+        archive.group(fmt::format("faces{}", k), [&] { passages[k].compareSetUp(archive, scene.time); });
 }
 
 void GrainCopies::visitState(StateArchive& archive, StepContext& /*scene*/) {
-    const std::vector<double> faces = numbersOfFaces();
-    archive.same<double>("faces", std::span<const double>(faces));
     std::vector<std::uint32_t> grains, ofGrains, inBox(members.begin(), members.end());
     std::vector<std::int32_t> turns, feeds;
     for (const auto& [identity, own] : copiesOf)

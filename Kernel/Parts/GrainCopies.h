@@ -72,6 +72,7 @@ public:
     void moveSurroundings(StepContext& step) override { follow(step.grains(), step.timeAfter); }
     void finish(StepContext& step) override { follow(step.grains(), step.timeAfter); }
     void atEnd(StepContext& step) override { renew(step, step.timeAfter); }
+    void compareSetUp(StateArchive& archive, StepContext& scene) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
     void addTo(SummaryRows& rows) const override;
 
@@ -87,6 +88,8 @@ private:
         std::function<Vec3D(double)> shift = {}, velocity = {};  // m, m/s, by s; parallel faces only
         double gap = 0;                                          // m
 
+        /// @param now s
+        void compareSetUp(StateArchive& archive, double now) const;
         /// m, how far a place is beyond a face (0 or 1).
         [[nodiscard]] double beyond(int face, const Vec3D& place) const {
             return outwards[face].dot(place - points[face]);
@@ -121,7 +124,6 @@ private:
         return !copies.contains(identity) && (!isFeeding() || members.contains(identity));
     }
 
-    [[nodiscard]] std::vector<double> numbersOfFaces() const;
     static void refuseColumns(const StepContext& scene);
     void refuseFacesAcross(const PeriodicBox& box) const;
     void requireRoom(StepContext& step, std::uint32_t identity, const Image& image,

@@ -30,6 +30,7 @@ void HeatPart::holdWall(int wall, double temperature, std::optional<double> cond
     checkValue(owner, "temperature", temperature, "K", notNegative);
     if (conductivity) checkValue(owner, "conductivity", *conductivity, "W/(m K)", positive);
     heldWalls[wall] = {temperature, conductivity.value_or(infinity)};
+    byWalls.try_emplace(wall);
     changedInRun |= hasBegun;
 }
 
@@ -64,7 +65,32 @@ std::span<const Conflict> HeatPart::ownConflicts() const {
     return table;
 }
 
+/// A linear spring's overlap says nothing of the spot that real grains have at its force; a sintered neck has
+/// the size that it has grown to.
+std::optional<std::string> HeatPart::objectionToSoftening(const ContactLaws& ofScene) const {
+    if (radiusFactor == 1) return {};
+    const double ratio = radiusFactor * radiusFactor * radiusFactor;
+    if (conduction == Conduction::AreaOverDistance)
+        return fmt::format(
+            "heat: softening = {:.6g} is for the contact radii of Conduction::Constriction, and area over "
+            "distance has none; it must be 1.",
+            ratio);
+    const auto count = static_cast<int>(ofScene.speciesCount());
+    for (int a = 0; a < count; ++a)
+        for (int b = a; b < count; ++b)
+            if (!ofScene.contactSpot(a, b, Bodies{1, 1}, 0).followsModulus)
+                return fmt::format(
+                    "heat: softening = {:.6g} is for contact radii that go with the modulus as Hertz's do, "
+                    "and those of species {} and {}, {}, do not; it must be 1, or take a Hertzian normal law "
+                    "without a sintered neck.",
+                    ratio, a, b, ofScene.ofPair(a, b).name);
+    return {};
+}
+
 void HeatPart::check(const StepContext& scene) {
+    laws = scene.laws;
+    if (const auto objection = objectionToSoftening(*laws)) throw InputError(*objection);
+    scene.contacts.askForHeldContacts();
     const auto species = static_cast<int>(scene.laws->speciesCount());
     for (int k = 0; k < species; ++k)
         if (!materials.contains(k))
@@ -107,8 +133,14 @@ double HeatPart::storedIn(StepContext& step) const {
     return step.contacts.ranks().sum(sum);
 }
 
-double HeatPart::contactRadius(double effectiveRadius, double overlap) const {
-    return radiusFactor * std::sqrt(effectiveRadius * overlap);
+double HeatPart::contactRadius(int a, int b, double effectiveRadius, double overlap) const {
+    return radiusFactor * (laws ? laws->contactSpot(a, b, Bodies{effectiveRadius}, overlap).radius
+                                : std::sqrt(effectiveRadius * overlap));
+}
+
+bool HeatPart::conductsApart(const Bucket& bucket) const {
+    return conduction == Conduction::Constriction &&
+           laws->contactSpot(bucket.species1, bucket.species2, Bodies{1, 1}, 0).radius > 0;
 }
 
 /// Of two conductivities in series: twice their harmonic sum.
@@ -121,13 +153,13 @@ double HeatPart::conductance(int a, int b, double effectiveRadius, double overla
     const double k = inSeries(materials.at(a).conductivity, materials.at(b).conductivity);
     if (conduction == Conduction::AreaOverDistance)
         return k * std::numbers::pi * 2 * effectiveRadius * overlap / distance;
-    return 2 * k * contactRadius(effectiveRadius, overlap);
+    return 2 * k * contactRadius(a, b, effectiveRadius, overlap);
 }
 
-double HeatPart::conductanceAtWall(const HeldWall& wall, int species, const ObservedContact& seen,
-                                   double radius) const {
+double HeatPart::conductanceAtWall(const HeldWall& wall, const Bucket& bucket, int species,
+                                   const ObservedContact& seen, double radius) const {
     return 2 * inSeries(materials.at(species).conductivity, wall.conductivity) *
-           contactRadius(radius, seen.overlap());
+           contactRadius(bucket.species1, bucket.species2, radius, seen.overlap());
 }
 
 /// Of grains, and on several ranks of ghosts.
@@ -139,17 +171,18 @@ void HeatPart::readTemperatures(const StepContext& step) {
     step.contacts.tellGhosts(before, none);
 }
 
-void HeatPart::conductBetween(const StepContext& step, const ObservedContact& seen, std::uint32_t first,
-                              std::uint32_t second) {
+void HeatPart::conductBetween(const StepContext& step, const Bucket& bucket, const ObservedContact& seen,
+                              std::uint32_t first, std::uint32_t second) {
     const ParticleStore& grains = step.grains();
     const TranslationRecord& one = grains.translation[first];
     if (seen.wall >= 0) {
         const auto held = heldWalls.find(seen.wall);
         if (held == heldWalls.end()) return;
-        const double found = conductanceAtWall(held->second, grains.species[first], seen, one.radius);
+        const double found = conductanceAtWall(held->second, bucket, grains.species[first], seen, one.radius);
         const double power = found * (held->second.temperature - before[first]);
         flow[first] += power, conductances[first] += found;
         fromWalls.add(step.length * power);
+        byWalls[seen.wall].ofStep.add(step.length * power);
         return;
     }
     const TranslationRecord& other = grains.translation[second];
@@ -182,11 +215,29 @@ void HeatPart::conduct(StepContext& step) {
     readTemperatures(step);
     const ContactSystem& contacts = step.contacts;
     forEachActing(step, [&](const Bucket& bucket, std::uint32_t contact) {
-        if (!contacts.touches(contact)) return;
+        if (!contacts.touches(contact) && !conductsApart(bucket)) return;
         const ObservedContact seen = contacts.observe(step.grains(), bucket, contact);
-        if (seen.overlap() > 0)
-            conductBetween(step, seen, contacts.firstOf(contact), contacts.secondOf(contact));
+        if (seen.overlap() > 0 ? seen.touching : seen.bridged && conductsApart(bucket))
+            conductBetween(step, bucket, seen, contacts.firstOf(contact), contacts.secondOf(contact));
     });
+}
+
+void HeatPart::addUpWalls(const StepContext& step) {
+    std::vector<ExactSum*> sums{&fromWalls, &fromContacts, &toWalls};
+    for (auto& [wall, given] : byWalls) sums.push_back(&given.ofStep);
+    step.contacts.ranks().addUp(sums);
+    for (auto& [wall, given] : byWalls) given.sum += given.ofStep.value();
+}
+
+double HeatPart::fromWall(int wall) const {
+    const auto found = byWalls.find(wall);
+    return found == byWalls.end() ? 0 : found->second.sum;
+}
+
+std::vector<int> HeatPart::wallsOfHeat() const {
+    std::vector<int> walls;
+    for (const auto& [wall, given] : byWalls) walls.push_back(wall);
+    return walls;
 }
 
 void HeatPart::takeLosses(const StepContext& step) {
@@ -248,27 +299,51 @@ void HeatPart::atEnd(StepContext& step) {
     const std::size_t size = step.grains().size();
     for (std::vector<double>* const column : {&flow, &source, &conductances}) column->assign(size, 0);
     for (ExactSum* const sum : {&fromWalls, &fromContacts, &toWalls}) *sum = {};
+    for (auto& [wall, given] : byWalls) given.ofStep = {};
     requireTemperatures(step);
+    if (const auto objection = objectionToSoftening(*step.laws))
+        throw RunError(fmt::format("At time {:.6g} s {}", step.time, *objection));
     heat.fromDriver += storedIn(step) - heat.stored;
     conduct(step);
     if (contactsHeat) takeLosses(step);
     changeTemperatures(step);
     requireTemperatures(step);
-    step.contacts.ranks().addUp({&fromWalls, &fromContacts, &toWalls});
+    addUpWalls(step);
     heat.fromWalls += fromWalls.value();
     heat.fromContacts += fromContacts.value();
     heat.toWalls += toWalls.value();
     heat.stored = storedIn(step);
 }
 
-/// Settings are those with which the run began, or, where it has changed them, those of the file.
-void HeatPart::visitSettings(StateArchive& archive) {
+/// Those with which the run began.
+void HeatPart::compareSettings(StateArchive& archive) const {
+    archive.same("materials", static_cast<std::uint64_t>(materials.size()));
+    for (const auto& [species, m] : materials)
+        archive.group(fmt::format("species{}", species), [&, &m = m] {
+            archive.same("conductivity", m.conductivity, "W/(m K)");
+            archive.same("heatCapacity", m.heatCapacity, "J/(kg K)");
+        });
+    archive.same("heldWalls", static_cast<std::uint64_t>(heldWalls.size()));
+    for (const auto& [wall, held] : heldWalls)
+        archive.group(fmt::format("wall{}", wall), [&, &held = held] {
+            archive.same("temperature", held.temperature, "K");
+            archive.same("conductivity", held.conductivity, "W/(m K)");
+        });
+    archive.same("conduction", static_cast<int>(conduction));
+    archive.same("radiusFactor", radiusFactor);
+    archive.same("heatByContacts", contactsHeat ? 1 : 0);
+}
+
+/// Where the run has changed them, they are those of the file.
+void HeatPart::compareSetUp(StateArchive& archive, StepContext& /*scene*/) {
     struct MaterialRow {
         double species, conductivity, heatCapacity;
     };
     struct WallRow {
         double wall, temperature, conductivity;
     };
+    archive.value("settingsChanged", changedInRun);
+    if (!changedInRun) return compareSettings(archive);
     std::vector<MaterialRow> ofSpecies;
     std::vector<WallRow> ofWalls;
     std::array<double, 3> laws{static_cast<double>(conduction), radiusFactor, contactsHeat ? 1.0 : 0.0};
@@ -276,15 +351,8 @@ void HeatPart::visitSettings(StateArchive& archive) {
         ofSpecies.push_back({static_cast<double>(species), m.conductivity, m.heatCapacity});
     for (const auto& [wall, held] : heldWalls)
         ofWalls.push_back({static_cast<double>(wall), held.temperature, held.conductivity});
-    archive.value("settingsChanged", changedInRun);
-    if (!changedInRun) {
-        archive.same<double>("materials", std::span<const MaterialRow>(ofSpecies));
-        archive.same<double>("heldWalls", std::span<const WallRow>(ofWalls));
-        archive.sameRecord<double>("laws", laws);
-        return;
-    }
-    archive.column<double>("materials", ofSpecies);
-    archive.column<double>("heldWalls", ofWalls);
+    archive.column<double>("materialsNow", ofSpecies);
+    archive.column<double>("heldWallsNow", ofWalls);
     archive.record<double>("laws", laws);
     if (!archive.isReading()) return;
     materials.clear(), heldWalls.clear();
@@ -298,13 +366,23 @@ void HeatPart::visitSettings(StateArchive& archive) {
 }
 
 void HeatPart::visitState(StateArchive& archive, StepContext& /*scene*/) {
+    struct Row {
+        double wall, heat;  // its number, J
+    };
+    std::vector<Row> ofWalls;
+    for (const auto& [wall, given] : byWalls) ofWalls.push_back({static_cast<double>(wall), given.sum});
     archive.finite("ledger", heat);
-    visitSettings(archive);
+    archive.column<double>("fromEachWall", ofWalls);
+    if (!archive.isReading()) return;
+    archive.requireFinite("fromEachWall", ofWalls);
+    for (const Row& row : ofWalls) byWalls[static_cast<int>(row.wall)].sum = row.heat;
 }
 
 void HeatPart::addTo(SummaryRows& rows) const {
     rows.addNumber("heat: stored in grains", heat.stored, "J");
     rows.addNumber("heat: from walls", heat.fromWalls, "J");
+    for (const auto& [wall, given] : byWalls)
+        rows.addNumber(fmt::format("heat: from wall {}", wall), given.sum, "J");
     if (contactsHeat) {
         rows.addNumber("heat: from contacts, into grains", heat.fromContacts, "J");
         rows.addNumber("heat: from contacts, into walls", heat.toWalls, "J");

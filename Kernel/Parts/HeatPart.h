@@ -22,21 +22,23 @@ struct HeatMaterial {
 
 /// How well a contact at an overlap d conducts, W/K.
 enum class Conduction {
-    /// 4 a k1 k2 / (k1 + k2), 2 k a for one material, with the contact radius a = sqrt(R* d) of Hertz: on
-    /// each
-    /// side heat is constricted to a round spot on a half-space, a resistance of 1/(4 k a). As in other codes
-    /// (EDEM's heat conduction model, after Chaudhuri, Muzzio and Tomassone 2006, writes a by the force).
+    /// 4 a k1 k2 / (k1 + k2), 2 k a for one material, with the contact radius a of the laws of the pair: on
+    /// each side heat is constricted to a round spot on a half-space, a resistance of 1/(4 k a) (Batchelor
+    /// and
+    /// O'Brien 1977, Proc. R. Soc. A 355, 313). The radius is Hertz's, sqrt(R* d), of Hertzian laws, and of
+    /// linear and plastic ones for want of their own; the neck of laws that sinter; and that of JKR's theory,
+    /// which conducts until it snaps (contactSpot(), Species/ContactSpot.h).
     Constriction,
     /// k pi 2 R* d / l with the distance l of the centres, k the harmonic mean: area over distance, as
-    /// MercuryDPM's Thermal species. Small overlaps conduct far less than by the constriction (28 times at
-    /// d = 1e-3 of the radius of equal grains).
+    /// MercuryDPM's Thermal species, whatever the laws are. Small overlaps conduct far less than by the
+    /// constriction (28 times at d = 1e-3 of the radius of equal grains).
     AreaOverDistance
 };
 
 /// The heat of a scene, J. It is constant but for what is given: closed().
 struct HeatLedger {
     double stored = 0;        // C T of all grains
-    double fromWalls = 0;     // of held temperatures, since the start
+    double fromWalls = 0;     // of held temperatures, since the start: the sum of all (HeatPart::fromWall())
     double fromContacts = 0;  // what contacts have lost, as far as it went into grains
     double toWalls = 0;       // of that what went into walls: out of the scene
     double fromDriver = 0;    // where temperatures, grains or capacities were changed between steps
@@ -74,7 +76,9 @@ public:
     void insulateWall(int wall);
     void setConduction(Conduction law);
     /// For grains that are softer than their material: contact radii are smaller by the cube root of this
-    /// ratio (0 to 1) of the moduli of real and simulated grains, as Hertz's are at equal force.
+    /// ratio (0 to 1) of the moduli of simulated and real grains, as Hertz's are at equal force. It is
+    /// refused for pairs of other normal laws than Hertz's, and for those with a sintered neck: their radii
+    /// do not go with a modulus.
     /// @param ratio E of the simulation over that of the material
     void setSoftening(double ratio);
     /// What contacts lose by EnergyLedger::lost() heats both bodies, half each: in friction, damping, plastic
@@ -82,10 +86,16 @@ public:
     /// nothing. Needs keepEnergyLedger().
     void heatByContacts(bool heats = true);
 
-    /// W/K, of a contact between species a and b. @param distance m, of the centres
+    /// W/K, of a contact between species a and b, by the laws of the scene; before its set-up by Hertz's
+    /// contact radius. @param distance m, of the centres
     [[nodiscard]] double conductance(int a, int b, double effectiveRadius, double overlap,
                                      double distance) const;
     [[nodiscard]] const HeatLedger& ledger() const { return heat; }
+    /// J that a wall, by its number, has given to grains by conduction since the start, negative where it has
+    /// taken more; 0 of one that never had a temperature.
+    [[nodiscard]] double fromWall(int wall) const;
+    /// The numbers of the walls that have or had a temperature.
+    [[nodiscard]] std::vector<int> wallsOfHeat() const;
     /// s: the longest step at the contacts of the last one; infinite before it.
     [[nodiscard]] double longestStep() const { return longest; }
 
@@ -96,6 +106,7 @@ public:
     void check(const StepContext& scene) override;
     void begin(StepContext& scene, bool isRestarted) override;
     void atEnd(StepContext& step) override;
+    void compareSetUp(StateArchive& archive, StepContext& scene) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
     void addTo(SummaryRows& rows) const override;
 
@@ -105,22 +116,31 @@ private:
         double conductivity;  // W/(m K); infinite
     };
 
+    struct GivenByWall {
+        double sum = 0;   // J, since the start
+        ExactSum ofStep;  // J
+    };
+
     void setMaterialOf(int species, const HeatMaterial& material);
-    void visitSettings(StateArchive& archive);
+    void compareSettings(StateArchive& archive) const;
     void requireTemperatures(StepContext& step) const;
+    [[nodiscard]] std::optional<std::string> objectionToSoftening(const ContactLaws& ofScene) const;
     [[nodiscard]] double capacityAt(const StepContext& step, std::uint32_t place) const;
     [[nodiscard]] double storedIn(StepContext& step) const;
-    [[nodiscard]] double contactRadius(double effectiveRadius, double overlap) const;
-    [[nodiscard]] double conductanceAtWall(const HeldWall& wall, int species, const ObservedContact& seen,
-                                           double radius) const;
+    [[nodiscard]] double contactRadius(int a, int b, double effectiveRadius, double overlap) const;
+    [[nodiscard]] double conductanceAtWall(const HeldWall& wall, const Bucket& bucket, int species,
+                                           const ObservedContact& seen, double radius) const;
+    /// Whether a contact conducts that overlaps no more: a neck.
+    [[nodiscard]] bool conductsApart(const Bucket& bucket) const;
     /// Calls function(bucket, contact) for each contact of grains here, in the order of identities; on
     /// several ranks, also for those that count on others.
     template <class Function>
     void forEachActing(const StepContext& step, Function&& function) const;
     void readTemperatures(const StepContext& step);
     void conduct(StepContext& step);
-    void conductBetween(const StepContext& step, const ObservedContact& seen, std::uint32_t first,
-                        std::uint32_t second);
+    void conductBetween(const StepContext& step, const Bucket& bucket, const ObservedContact& seen,
+                        std::uint32_t first, std::uint32_t second);
+    void addUpWalls(const StepContext& step);
     void takeLosses(const StepContext& step);
     void refuseStep(const StepContext& step, std::uint32_t place, double bound) const;
     void changeTemperatures(StepContext& step);
@@ -128,6 +148,8 @@ private:
     GrainColumnReference temperatures;
     std::map<int, HeatMaterial> materials;  // by species
     std::map<int, HeldWall> heldWalls;      // by number
+    std::map<int, GivenByWall> byWalls;     // by number, also of those that are held no more
+    const ContactLaws* laws = nullptr;      // of the scene, once it is set up
     Conduction conduction = Conduction::Constriction;
     double radiusFactor = 1;  // of contact radii
     bool contactsHeat = false;

@@ -40,6 +40,8 @@ void InletPart::atEnd(StepContext& step) {
                  [&](const std::string& sentence) { step.logger(LogLevel::Warn, "{}", sentence); });
 }
 
+void InletPart::compareSetUp(StateArchive& archive, StepContext& /*scene*/) { inlets.compareSetUp(archive); }
+
 void InletPart::visitState(StateArchive& archive, StepContext& /*scene*/) { inlets.visitState(archive); }
 
 GrainSizes sizesOfScene(const ContactLaws& laws, const ParticleStore& grains, const InletHandler& inlets,

@@ -17,6 +17,7 @@ public:
     void begin(StepContext& scene, bool isRestarted) override;
     void prepare(StepContext& step) override;
     void atEnd(StepContext& step) override;
+    void compareSetUp(StateArchive& archive, StepContext& scene) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
     void addTo(SummaryRows& rows) const override;
 

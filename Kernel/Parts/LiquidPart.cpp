@@ -116,7 +116,7 @@ void FilmMassPart::setDensity(const StepContext& scene, double liquid) {
     ParticleHandler::Inside::setLiquidDensity(scene.particles, liquid);
 }
 
-void FilmMassPart::visitState(StateArchive& archive, StepContext& /*scene*/) {
+void FilmMassPart::compareSetUp(StateArchive& archive, StepContext& /*scene*/) {
     archive.same("density", density, "kg/m^3");
 }
 

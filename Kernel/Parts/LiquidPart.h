@@ -19,6 +19,9 @@ public:
     [[nodiscard]] std::string_view name() const override { return "liquid"; }
     [[nodiscard]] Features features(const StepContext& scene) const override;
     [[nodiscard]] bool needsFinishedStep() const override { return false; }
+    /// The liquid of the contacts compares how it dries (Contacts/Evaporation.h); what is to come depends on
+    /// the end time, which may change.
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}
     void afterForces(StepContext& step) override;
 
     /// @param volume m^3, an upper bound of the liquid that will come
@@ -46,7 +49,7 @@ public:
     [[nodiscard]] Features features(const StepContext& scene) const override;
     void afterMotion(StepContext& step) override;
     void finish(StepContext& step) override;
-    void visitState(StateArchive& archive, StepContext& scene) override;
+    void compareSetUp(StateArchive& archive, StepContext& scene) override;
 
     /// @param liquid kg/m^3; 0: films have no mass
     void setDensity(const StepContext& scene, double liquid);

@@ -14,6 +14,8 @@ public:
     void prepare(StepContext& step) override;
     void moveSurroundings(StepContext& step) override;
     void afterForces(StepContext& step) override;
+    /// Membranes, which are walls, compare theirs.
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}
     void takeBack(StepContext& step) override;
 
 private:

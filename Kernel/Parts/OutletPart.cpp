@@ -24,6 +24,10 @@ void OutletPart::atEnd(StepContext& step) {
     step.contacts.sumLostForces(step.grains());
 }
 
+void OutletPart::compareSetUp(StateArchive& archive, StepContext& /*scene*/) {
+    outlets.compareSetUp(archive);
+}
+
 void OutletPart::visitState(StateArchive& archive, StepContext& /*scene*/) { outlets.visitState(archive); }
 
 void OutletPart::addTo(SummaryRows& rows) const {

@@ -15,6 +15,7 @@ public:
     [[nodiscard]] bool needsFinishedStep() const override { return false; }
     void begin(StepContext& scene, bool isRestarted) override;
     void atEnd(StepContext& step) override;
+    void compareSetUp(StateArchive& archive, StepContext& scene) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
     void addTo(SummaryRows& rows) const override;
 

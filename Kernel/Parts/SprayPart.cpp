@@ -26,6 +26,8 @@ void SprayPart::finish(StepContext& step) {
                     step.smallestRadius, step.threads});
 }
 
+void SprayPart::compareSetUp(StateArchive& archive, StepContext& /*scene*/) { sprays.compareSetUp(archive); }
+
 void SprayPart::visitState(StateArchive& archive, StepContext& scene) {
     if (scene.particles.films().areKept()) sprays.visitState(archive, scene.particles.films());
 }

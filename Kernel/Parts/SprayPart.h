@@ -17,6 +17,7 @@ public:
     /// Called when the flow of the step is known.
     void beforeMotion(StepContext& step) override;
     void finish(StepContext& step) override;
+    void compareSetUp(StateArchive& archive, StepContext& scene) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
     void addTo(SummaryRows& rows) const override;
 

@@ -8,6 +8,7 @@
 #include "Kernel/Contacts/BodyArms.h"
 #include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Math/ExactSum.h"
+#include "Kernel/Particles/DampedServo.h"
 #include "Kernel/Particles/MovingBodies.h"
 
 namespace pendular {
@@ -60,6 +61,62 @@ struct PressedContact {
     Bodies bodies;
     double overlap;  // m
 };
+
+/// The dashpots of a contact between grains that overlap or whose bridge resists motion, and its tangential
+/// springs.
+ContactStiffness rateStiffness(const ContactLaws& ofAll, const Bucket& bucket, const ParticleStore& grains,
+                               std::uint32_t first, std::uint32_t second, const PressedContact& contact) {
+    const ContactLaws& laws = ofAll.ofPair(bucket.species1, bucket.species2);
+    const double mobility = grains.translation[first].inverseMass + grains.translation[second].inverseMass;
+    ContactStiffness found;
+    if (!(contact.overlap > 0 || laws.resistsMotion) || !(mobility > 0)) return found;
+    const PressedPair pair{contact.bodies, 1 / mobility,
+                           std::max(contact.overlap, 1e-6 * contact.bodies.effectiveRadius())};
+    laws.stiffnesses(bucket.species1, bucket.species2, {&pair, 1}, {&found, 1});
+    if (!(contact.overlap > 0)) found.sliding.spring = 0;
+    return found;
+}
+
+/// Sums over contacts (N m s, N m) of what answers to a rate besides the normal springs: along the axes and
+/// in shear.
+struct RateSums {
+    std::array<ExactSum, 3> dashpots, tangential;
+    ExactSum shearDashpot, shearTangential;
+
+    /// @param part shift times branch along each axis over the squared distance; @param squared m^2, the
+    /// distance; @param inFlow n_f^2; @param across m^2, squared branch along the gradient
+    void add(const ContactStiffness& s, const std::array<double, 3>& part, const HomogeneousStrain& strain,
+             double squared, double inFlow, double across) {
+        double amounts = 0;
+        for (std::size_t a = 0; a < 3; ++a)
+            if (strain.axes[a].isControlled) amounts += std::abs(part[a]);
+        for (std::size_t a = 0; a < 3; ++a) {
+            if (!strain.axes[a].isControlled) continue;
+            const double own = std::abs(part[a]), along = squared * own * amounts,
+                         beside = squared * own * (std::max(0.0, 1 - own) + amounts - own);
+            addUnlessZero(dashpots[a], s.normal.dashpot * along + s.sliding.dashpot * beside);
+            addUnlessZero(tangential[a], s.sliding.spring * beside);
+        }
+        const double beside = across * std::max(0.0, 1 - inFlow);
+        addUnlessZero(shearDashpot, s.normal.dashpot * inFlow * across + s.sliding.dashpot * beside);
+        addUnlessZero(shearTangential, s.sliding.spring * beside);
+    }
+    void addUpTo(DiagonalStress& found, const AllRanks& ranks, double volume) {
+        ranks.addUp({&dashpots[0], &dashpots[1], &dashpots[2], &tangential[0], &tangential[1], &tangential[2],
+                     &shearDashpot, &shearTangential});
+        for (std::size_t a = 0; a < 3; ++a) {
+            found.dashpot[a] = dashpots[a].value() / volume;
+            found.tangential[a] = tangential[a].value() / volume;
+        }
+        found.shearDashpot = shearDashpot.value() / volume;
+        found.shearTangential = shearTangential.value() / volume;
+    }
+
+private:
+    static void addUnlessZero(ExactSum& sum, double value) {
+        if (value != 0) sum.add(value);
+    }
+};
 PressedContact pressedContact(const GrainShapes* shapes, const ParticleStore& grains, std::uint32_t first,
                               std::uint32_t second, const Vector<double>& apart) {
     const double distance = norm(apart);
@@ -92,20 +149,27 @@ DiagonalStress diagonalStress(const ContactSystem& contacts, const ParticleStore
     // N m each: sums over the contacts of force times branch, and of spring times squared branch
     std::array<ExactSum, 3> moments, springs;
     ExactSum shearMoment, shearSpring;
+    RateSums ofRates;
     contacts.forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
         const std::uint32_t place1 = contacts.firstOf(contact), place2 = contacts.secondOf(contact);
         const TranslationRecord &first = grains.translation[place1], &second = grains.translation[place2];
         const Vector<double> apart = box.nearest(second.position - first.position);
         const double distance = norm(apart);
-        const auto [along, bodies, overlap] = pressedContact(shapes, grains, place1, place2, apart);
+        const PressedContact pressed = pressedContact(shapes, grains, place1, place2, apart);
+        const auto& [along, bodies, overlap] = pressed;
         const double spring =
             overlap > 0 ? contacts.laws().normalStiffness(bucket.species1, bucket.species2, bodies, overlap)
                         : 0;
         const auto shift = partsOf(along), force = partsOf(contacts.forceOf(contact));
         const auto branch = partsOf(apart + (arms.at(place1) - arms.at(place2)));
         double share = 0;  // of the controlled axes in the direction of the contact
-        for (std::size_t a = 0; a < 3; ++a)
-            if (strain.axes[a].isControlled) share += shift[a] * branch[a] / (distance * distance);
+        std::array<double, 3> part{};
+        for (std::size_t a = 0; a < 3; ++a) {
+            part[a] = shift[a] * branch[a] / (distance * distance);
+            if (strain.axes[a].isControlled) share += part[a];
+        }
+        ofRates.add(rateStiffness(contacts.laws(), bucket, grains, place1, place2, pressed), part, strain,
+                    distance * distance, shift[f] * shift[f] / (distance * distance), branch[g] * branch[g]);
         for (std::size_t a = 0; a < 3; ++a) {
             moments[a].add(force[a] * branch[a]);
             springs[a].add(spring * shift[a] * branch[a] * share);
@@ -117,6 +181,7 @@ DiagonalStress diagonalStress(const ContactSystem& contacts, const ParticleStore
     contacts.ranks().addUp({&moments[0], &moments[1], &moments[2], &springs[0], &springs[1], &springs[2],
                             &shearMoment, &shearSpring});
     found.touches = contacts.ranks().sum(found.touches);
+    ofRates.addUpTo(found, contacts.ranks(), volume);
     for (std::size_t a = 0; a < 3; ++a) {
         found.stress[a] -= moments[a].value() / volume;
         found.stiffness[a] += springs[a].value() / volume;
@@ -153,16 +218,18 @@ void controlStress(HomogeneousStrain& strain, LeesEdwards& shear, const Diagonal
         AxisStrain& axis = strain.axes[a];
         if (!axis.isControlled) continue;
         axis.oneWay += interval * axis.servo.speed;
-        axis.servo.look(stress.stress[a], axis.stress, stress.stiffness[a], interval, axis.time,
-                        servoDriftTimes * axis.time, axis.largestRate);
+        lookBesideDashpots(axis.servo, stress.stress[a], axis.stress, stress.stiffness[a],
+                           stress.dashpot[a] + 0.5 * interval * stress.tangential[a], interval, axis.time,
+                           servoDriftTimes * axis.time, axis.largestRate);
         axis.rate = axis.servo.speed;
         if (axis.oneWay * axis.rate <= 0) axis.oneWay = 0;
     }
     if (shear.isControlled) {
         shear.atLargest += interval * std::abs(shear.servo.speed);
         // A larger rate makes the stress larger: both with the sign of a value that a speed makes smaller.
-        shear.servo.look(-stress.shear, -shear.stress, stress.shearStiffness, interval, shear.time,
-                         servoDriftTimes * shear.time, shear.largestRate);
+        lookBesideDashpots(shear.servo, -stress.shear, -shear.stress, stress.shearStiffness,
+                           stress.shearDashpot + 0.5 * interval * stress.shearTangential, interval,
+                           shear.time, servoDriftTimes * shear.time, shear.largestRate);
         shear.rate = shear.servo.speed;
         if (std::abs(shear.rate) < shear.largestRate) shear.atLargest = 0;
     }

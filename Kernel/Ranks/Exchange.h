@@ -1,9 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,6 +19,9 @@ inline constexpr const char* inOtherCalls =
     "Ranks wait for each other in different calls: gather(), writeRestart(), sumOverRanks() and others that "
     "say "
     "so must be called on all ranks, in the same order (Kernel/Ranks/README.md).";
+
+/// What a reduction is for: where ranks wait in different ones, the run ends with that sentence.
+enum class Reduction { Number, Step, Decisions, SetUp };
 
 /// What goes between the ranks of a run, as one of them sees it. All ranks call the same functions in the
 /// same order.
@@ -43,9 +48,14 @@ public:
         for (Message& from : swap(std::vector<Message>(count(), message)))
             for (std::int64_t& integer : integers) integer += from.take<std::int64_t>();
     }
-    /// largest() in two calls: other messages may be on their way between them, so that ranks wait once.
-    virtual void beginLargest(double own) { begun = own; }
-    [[nodiscard]] virtual double endLargest() { return largest(begun); }
+    /// The largest of each of three numbers, none of which is NaN, in one message and in two calls: other
+    /// messages may be on their way between them, so that ranks wait once.
+    using Three = std::array<double, 3>;
+    virtual void beginLargest(Reduction /*what*/, const Three& own) { begun = own; }
+    [[nodiscard]] virtual Three endLargest() {
+        for (double& number : begun) number = largest(number);
+        return begun;
+    }
     /// s, how long this rank has waited for others so far.
     [[nodiscard]] virtual double waited() const { return 0; }
     /// What each rank gives, in the order of ranks.
@@ -57,9 +67,15 @@ public:
         for (Message& from : swap(std::vector<Message>(count(), message))) all.push_back(from.take<Value>());
         return all;
     }
+    [[nodiscard]] std::vector<std::string> textsOfAll(const std::string& own) {
+        std::vector<std::string> all;
+        for (const Message& from : swap(std::vector<Message>(count(), Message(own))))
+            all.emplace_back(from.all());
+        return all;
+    }
 
 private:
-    double begun = 0;
+    Three begun{};
 };
 
 }  // namespace pendular

@@ -44,9 +44,9 @@ std::vector<Vector<double>> imageOffsets(const PeriodicBox& box) {
     std::vector<Vector<double>> offsets{{0, 0, 0}};
     const auto addAlong = [&](const Vector<double>& shift) {
         if (squaredNorm(shift) == 0) return;
-        const std::vector<Vector<double>> before = offsets;
+        const std::size_t before = offsets.size();
         for (const double image : {-1.0, 1.0})
-            for (const Vector<double>& offset : before) offsets.push_back(offset + image * shift);
+            for (std::size_t k = 0; k < before; ++k) offsets.push_back(offsets[k] + image * shift);
     };
     addAlong(box.across.x > 0 ? leastSlid(box) : Vector<double>{box.length.x, 0, 0});
     addAlong(box.across.y > 0 ? leastSlid(box) : Vector<double>{0, box.length.y, 0});

@@ -38,6 +38,7 @@ void takeBodies(Message& message, RigidBodies& bodies, bool areGhosts) {
 void GrainSharing::distribute(ParticleStore& grains, const PeriodicBox& box, double reach,
                               const Luggage& luggage) {
     times.beginList(exchange);
+    if (!isDistributed) countInAll = grains.count();
     // After an output the cuts are those from before it: the first rank does not know what its own take.
     const bool isAfterOutput = !std::exchange(wereOwn, {}).empty();
     const double before = done.cutting;
@@ -160,7 +161,14 @@ void GrainSharing::gather(ParticleStore& grains, const PeriodicBox& box, const L
     grains.bodies.sort();
 }
 
+void GrainSharing::countAll(const ParticleStore& grains) {
+    auto own = static_cast<std::int64_t>(grains.count());
+    exchange.addUp({&own, 1});
+    countInAll = static_cast<std::size_t>(own);
+}
+
 void GrainSharing::dropOthers(ParticleStore& grains) {
+    countInAll = grains.count();
     std::vector<std::uint32_t> own, bodies;
     for (std::uint32_t k = 0; k < grains.ownSize(); ++k)
         if (!grains.isGap(k) && wereOwn[grains.identity[k]]) own.push_back(k);
@@ -377,12 +385,26 @@ void GrainSharing::exchangeMotion(ParticleStore& grains, bool withAccelerations)
     else withAccelerations ? exchangeMotionOf<false, true>(grains) : exchangeMotionOf<false, false>(grains);
 }
 
-double GrainSharing::exchangeStep(ParticleStore& grains, bool withAccelerations, double ownShift) {
-    if (!isDistributed) return ownShift;
+/// Three numbers whose largest ones tell the largest of one, and whether the other is the same on all ranks.
+/// A double has 52 bits of it: by chance two are taken for the same once in 4e15.
+static Exchange::Three threeOf(double largest, std::uint64_t alike) {
+    const auto number = static_cast<double>(alike >> 12);
+    return {std::isnan(largest) ? infinity : largest, number, -number};
+}
+static GrainSharing::OfAll toldBy(const Exchange::Three& most) { return {most[0], most[1] == -most[2]}; }
+
+GrainSharing::OfAll GrainSharing::exchangeStep(ParticleStore& grains, bool withAccelerations, double ownShift,
+                                               std::uint64_t alike) {
+    if (!isDistributed) return {ownShift, true};
     times.addStep();
-    exchange.beginLargest(std::isnan(ownShift) ? infinity : ownShift);
+    exchange.beginLargest(Reduction::Step, threeOf(ownShift, alike));
     exchangeMotion(grains, withAccelerations);
-    return exchange.endLargest();
+    return toldBy(exchange.endLargest());
+}
+
+GrainSharing::OfAll GrainSharing::agree(Reduction what, std::uint64_t alike, double own) {
+    exchange.beginLargest(what, threeOf(own, alike));
+    return toldBy(exchange.endLargest());
 }
 
 }  // namespace pendular

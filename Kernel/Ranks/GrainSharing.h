@@ -82,9 +82,20 @@ public:
     /// Ghosts get the motion of the grains that they stand for.
     /// @param withAccelerations contacts feel them
     void exchangeMotion(ParticleStore& grains, bool withAccelerations);
-    /// The same for a step, and at the same time the largest of how far grains have moved on the ranks.
+    /// The same for a step, and at the same time the largest of how far grains have moved on the ranks, and
+    /// whether a number is the same on all of them.
     /// @param ownShift m; what is not a number counts as infinite
-    [[nodiscard]] double exchangeStep(ParticleStore& grains, bool withAccelerations, double ownShift);
+    struct OfAll {
+        double shift;  // m
+        bool areAlike;
+    };
+    [[nodiscard]] OfAll exchangeStep(ParticleStore& grains, bool withAccelerations, double ownShift,
+                                     std::uint64_t alike);
+    /// Whether all ranks give the same number; and the largest of another one.
+    [[nodiscard]] OfAll agree(Reduction what, std::uint64_t alike, double own = 0);
+    [[nodiscard]] std::vector<std::string> textsOfAll(const std::string& own) {
+        return exchange.textsOfAll(own);
+    }
 
     /// Ghosts get a number of the grains, or of the rigid bodies, that they stand for.
     /// @param ofGrains at each place; @param ofBodies at each place, ghosts included
@@ -100,6 +111,10 @@ public:
     [[nodiscard]] std::vector<Value> ofAll(const Value& own) {
         return exchange.ofAll(own);
     }
+    /// How many grains all ranks have together, as of the last list or the last time that they were counted.
+    [[nodiscard]] std::size_t countOfAll() const { return countInAll; }
+    /// Counts them where grains have come or gone: all ranks call it.
+    void countAll(const ParticleStore& grains);
     /// Whether each rank has its own grains only: from the first list on, until they are gathered.
     [[nodiscard]] bool areDistributed() const { return isDistributed; }
     [[nodiscard]] RankCounts counts() const;
@@ -135,6 +150,7 @@ private:
     bool isDistributed = false;
     std::uint32_t onAllFrom = ~std::uint32_t{0};
     std::vector<bool> wereOwn;  // of each identity, before the first rank got all grains; empty: it has not
+    std::size_t countInAll = 0;
     RankCounts done;
     using OfEachRank = std::vector<std::vector<std::uint32_t>>;
     OfEachRank sent, got;                          // identities of ghosts, to and from each rank

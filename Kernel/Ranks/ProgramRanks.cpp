@@ -54,7 +54,7 @@ ProcessRanks* startRanks() {
             fmt::format("{}, but this build of Pendular has no MPI: install libopenmpi-dev "
                         "(Tools/install-dependencies.sh --mpi) and build again with PENDULAR_MPI=ON, or {}.",
                         othersOf(started), alone));
-    const auto make = reinterpret_cast<ProcessRanks* (*)()>(dlsym(module, "makePendularRanks2"));
+    const auto make = reinterpret_cast<ProcessRanks* (*)()>(dlsym(module, "makePendularRanks3"));
     if (!make)
         throw InputError(fmt::format(
             "{}, but PendularMpi.so is of another version of Pendular than this program: build, or "

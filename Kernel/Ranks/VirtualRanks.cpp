@@ -23,15 +23,25 @@ public:
         meet();
         return std::exchange(mail[own], std::vector<Message>(all.ranks));
     }
-    [[nodiscard]] double largest(double value) override {
-        auto& values = board(Call::Largest).values;
-        values[own] = value;
-        meet();
-        return std::ranges::max(values);
+    [[nodiscard]] double largest(double value) override { return largestOf(Call::Largest, {value, 0, 0})[0]; }
+    void beginLargest(Reduction what, const Three& three) override { begun = {what, three}; }
+    [[nodiscard]] Three endLargest() override {
+        constexpr std::array calls{Call::Largest, Call::LargestOfStep, Call::LargestOfDecisions,
+                                   Call::LargestOfSetUp};
+        return largestOf(calls[static_cast<std::size_t>(begun.first)], begun.second);
     }
     [[nodiscard]] double waited() const override { return waiting.seconds(); }
 
 private:
+    [[nodiscard]] Three largestOf(Call call, const Three& three) {
+        auto& values = board(call).values;
+        values[own] = three;
+        meet();
+        Three most = values[0];
+        for (const Three& one : values)
+            for (std::size_t k = 0; k < most.size(); ++k) most[k] = std::max(most[k], one[k]);
+        return most;
+    }
     Board& board(Call call) {
         Board& next = all.boards[++calls % 2];
         next.calls[own] = call;
@@ -46,13 +56,14 @@ private:
 
     VirtualRanks& all;
     std::size_t own, calls = 0;
+    std::pair<Reduction, Three> begun{};
     Stopwatch waiting;
 };
 
 void VirtualRanks::run(const std::function<void(Exchange&)>& program) {
     for (Board& board : boards)
         board = {std::vector<std::vector<Message>>(ranks, std::vector<Message>(ranks)),
-                 std::vector<double>(ranks, 0), std::vector<Call>(ranks)};
+                 std::vector<Exchange::Three>(ranks), std::vector<Call>(ranks)};
     waiting = ended = 0;
     isAlone = false;
     std::vector<std::exception_ptr> failures(ranks);

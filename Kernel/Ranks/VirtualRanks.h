@@ -32,12 +32,12 @@ private:
     /// A rank calls it no more.
     void leave();
 
-    enum class Call { Swap, Largest };
+    enum class Call { Swap, Largest, LargestOfStep, LargestOfDecisions, LargestOfSetUp };
     /// What is given in a call. There are two: a rank that is ahead gives the next while others still take
     /// this one.
     struct Board {
         std::vector<std::vector<Message>> mail;  // to each rank, from each
-        std::vector<double> values;              // of each rank
+        std::vector<Exchange::Three> values;     // of each rank
         std::vector<Call> calls;                 // of each rank: what it calls
     };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -21,7 +22,8 @@ std::vector<std::vector<std::size_t>> groupsOfSpheres(std::span<const Ball> sphe
                 const double reach = (1 + share) * (own.radius + spheres[other].radius);
                 return (spheres[other].centre - own.centre).squaredNorm() > reach * reach;
             });
-            group.insert(group.end(), others, left.end());
+            // Not insert(), where g++ 14 warns of a copy to the memory in front of a vector.
+            std::copy(others, left.end(), std::back_inserter(group));
             left.erase(others, left.end());
         }
         std::ranges::sort(group);

@@ -67,6 +67,20 @@ private:
     Bodies bodies;
 };
 
+/// The stiffness of a contact at an overlap, for stabilityLimit().
+struct StiffnessThere {
+    ContactStiffness contact;
+};
+ContactStiffness contactStiffness(const StiffnessThere& there, const Bodies& /*bodies*/, double /*mass*/) {
+    return there.contact;
+}
+ContactStiffness stiffnessAt(const PairLaws& pair, const Bodies& bodies, double mass, double overlap) {
+    const PressedPair pressed{bodies, mass, overlap};
+    ContactStiffness found;
+    pair.laws.stiffnesses(pair.a, pair.b, {&pressed, 1}, {&found, 1});
+    return found;
+}
+
 struct Loads {
     double pressure, speed;  // Pa, m/s
 };
@@ -98,7 +112,9 @@ OverlapEstimate estimateOverlaps(Scene& scene, double pressure) {
     const Loads loads = loadsOf(scene, grains, sizes, pressure);
     found.pressure = loads.pressure, found.speed = loads.speed;
     const double heaviest = heaviestBody(grains);
-    double shortest = infinity;  // over the limit
+    const Integrator scheme = schemeOfScene(scene.laws(), sizes, scene.wallHandler, scene.getIntegrator());
+    const std::size_t contacts = mostContacts(sizes.count, scene.wallHandler);
+    double supposed = infinity, there = infinity;  // s, of the stiffest pair
     forEachExtremePair(
         scene.laws(), sizes, scene.wallHandler, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
             const NormalCurve curve(laws, bodies);
@@ -112,10 +128,14 @@ OverlapEstimate estimateOverlaps(Scene& scene, double pressure) {
                                                    [&](double x) { return curve.energy(x); });
             found.byWeight = std::max(found.byWeight, byWeight / smaller);
             found.bySpeed = std::max(found.bySpeed, bySpeed / smaller);
-            const double here = curve.stiffness(std::max(byWeight, bySpeed));
-            shortest = std::min(shortest, std::sqrt(curve.stiffness(largestSoundOverlap * smaller) / here));
+            const auto limitAt = [&](double overlap) {
+                return stabilityLimit(StiffnessThere{stiffnessAt(laws, bodies, mass, overlap)}, bodies, mass,
+                                      scheme, contacts);
+            };
+            supposed = std::min(supposed, limitAt(largestSoundOverlap * smaller));
+            there = std::min(there, limitAt(std::max({byWeight, bySpeed, 1e-6 * smaller})));
         });
-    found.step = shortest * found.limit;
+    found.step = there / supposed * found.limit;
     return found;
 }
 

@@ -26,7 +26,8 @@ struct OverlapEstimate {
 ///   at the solid fraction 0.6 has pi d^2 p / (0.6 Z) (Rumpf (1958); the stress of Love and Weber).
 /// - Speed: 1/2 m* v^2 is stored at once; v is the largest speed of a grain and that of a fall through the
 ///   height of the box along gravity. Where there are rigid bodies, m* is that of the heaviest ones.
-/// The step takes frequencies to go with the root of the normal stiffness, as with Hertz and Mindlin.
+/// The step is the limit times that of the stiffest pair with these overlaps over that with 5 %: normal and
+/// tangential stiffness of Hertz and Mindlin change with the overlap, springs of rolling and torsion do not.
 /// It may be called before or after the run begins.
 /// @param pressure Pa, that acts besides (pistons, target stresses)
 [[nodiscard]] OverlapEstimate estimateOverlaps(Scene& scene, double pressure = 0);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
@@ -161,7 +163,12 @@ void Run::step(std::size_t count) {
     if (course)
         throw InputError(
             "Simulation: step() writes no outputs, and this run goes on in parts; call runSteps() instead.");
-    for (std::size_t k = 1; k <= count; ++k) stepOnce(k < count);
+    for (std::size_t k = 1; k <= count; ++k) {
+        stepsOfCall = static_cast<std::uint32_t>(
+            std::min<std::size_t>(count - k + 1, std::numeric_limits<std::uint32_t>::max()));
+        stepOnce(k < count);
+    }
+    stepsOfCall = 0;
 }
 
 void Run::stepOnce(bool another) {

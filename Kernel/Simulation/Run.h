@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <functional>
@@ -179,6 +180,10 @@ protected:
     /// remember.
     void visitSteps(StateArchive& archive);
     void visitOutputs(StateArchive& archive);
+    /// What all ranks must have decided alike after a step.
+    void visitDecisions(StateArchive& archive) const;
+    /// Steps that this call of step() has still to do; 0 elsewhere.
+    [[nodiscard]] std::uint32_t stepsToCome() const { return stepsOfCall; }
     /// s, what getTime() will be: not always getTime() + getTimeStep() to the last bit.
     [[nodiscard]] double timeAfterNextStep() const {
         return timeAfter(steps + 1, stepsBefore, timeBefore, timeStep);
@@ -233,6 +238,10 @@ private:
     virtual void onFirstRank(const std::function<void()>& write);
     /// The largest of what the ranks give.
     [[nodiscard]] virtual double agreeOnLargest(double own) { return own; }
+    /// The same; throws RunError, which names the difference, where not all ranks have decided alike.
+    [[nodiscard]] virtual double agreeOnDecisions(double own) { return own; }
+    /// Throws RunError where ranks have other species, walls or parts of the step.
+    virtual void agreeOnSettings() {}
 
     /// s, after so many steps, of which the last have this length (s)
     static double timeAfter(std::size_t done, std::size_t before, double beforeTime, double length) {
@@ -278,7 +287,8 @@ private:
     double timeBefore = 0;            // s, when these had been done
     std::optional<double> endOfStep;  // s, within a step whose grains have moved
     bool begun = false;
-    bool stepChanged = false;  // since the run began
+    bool stepChanged = false;       // since the run began
+    std::uint32_t stepsOfCall = 0;  // as stepsToCome() says
     RestartSchedule restarts;
     std::vector<std::filesystem::path> replaced;  // as replaceAtStart() says
     std::optional<std::size_t> restartFileSteps;  // in restartFile(), if it is of this run

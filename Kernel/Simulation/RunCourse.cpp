@@ -24,6 +24,7 @@ struct Run::Course {
     std::optional<Progress> progress;
     int heard = RunControl::Nothing;  // after the last step
     bool goesOn = true;               // by continueSolve() on any rank, where there are several
+    PartEnd end;                      // of the part under way
 };
 
 Run::Run() : timeStep(unset) { prepareProgram(); }
@@ -212,12 +213,26 @@ int Run::whatIsHeard() {
     constexpr int going = 1 << 20;          // above all that can be heard
     const bool isWanted = continueSolve();  // asked for on all ranks: it may ask for what they know together
     const bool goesOn = heard >= RunControl::OutOfTime || isWanted;
-    const int all = static_cast<int>(agreeOnLargest(goesOn ? going + heard : 0));
+    const int all = static_cast<int>(agreeOnDecisions(goesOn ? going + heard : 0));
     course->goesOn = all >= going;
     return all % going;
 }
 
+void Run::visitDecisions(StateArchive& archive) const {
+    const bool pauses = pauseAsked && (underWay & Within::Whole) == 0;
+    archive.same("the number of steps done", steps);
+    archive.same("requestPause()", pauses ? "called" : "not called");
+    if (course) archive.same("the last step of this part of the run", lastStep(course->end));
+    archive.same("the number of outputs (addOutput())", outputs.size());
+    archive.same("the number of steps between outputs (setSaveCount())", saveCount);
+    archive.same("keepRestartFile()", restarts.kept ? "called" : "not called");
+    archive.same("the number of steps between restart files (setRestartCount())", restarts.count);
+    archive.same("leaveGrainsOnRanks()", leavesGrains ? "called" : "not called");
+}
+
 void Run::stepUntil(const PartEnd& end) {
+    course->end = end;
+    pauseAsked = false;
     std::optional<Progress>& progress = course->progress;
     if (progress) progress->setEnd(timeMax);
     bool stops = isAskedToStop(), goesOn = true;
@@ -231,6 +246,7 @@ void Run::stepUntil(const PartEnd& end) {
         if (progress && course->heard >= RunControl::Show)
             progress->show(getTime(), steps, [this] { return numbers(); });
     }
+    agreeOnSettings();
     if (progress) {
         const RunNumbers reached = numbers();  // of all ranks
         progress->finish(getTime(), steps, [&] { return reached; });

@@ -50,14 +50,14 @@ std::size_t bridgesOut(const Scene& scene) {
 /// A sentence for each domain that the scene has left; no commas in it.
 std::vector<std::string> warnings(const Scene& scene, bool atEnd) {
     std::vector<std::string> found;
-    const OverlapWatch& overlaps = scene.contacts().overlaps();
+    const OverlapWatch overlaps = scene.contacts().overlaps();
     const OverlapLimit limit = scene.laws().overlapLimit;
     if (overlaps.countAbove() > 0)
         found.push_back(fmt::format(
             "{}: overlaps were above {} of the effective radius in {} evaluations of contacts and the "
             "largest was {:.3g}; take stiffer grains or lower speeds and loads",
             limit.law, limit.largest, overlaps.countAbove(), overlaps.largestOverlap()));
-    const CapillaryWatch& numbers = scene.contacts().capillaryNumbers();
+    const CapillaryWatch numbers = scene.contacts().capillaryNumbers();
     if (numbers.countAbove() > 0)
         found.push_back(fmt::format(
             "bridges were drawn at capillary numbers above the largestCapillaryNumber of their law in {} "
@@ -103,7 +103,8 @@ void addRun(SummaryRows& rows, const Scene& scene) {
     if (scene.getStepForError()) addStepForError(rows, *scene.getStepForError());
     rows.add("threads", scene.getNumberOfThreads());
     rows.add("grains", scene.particleHandler.getSize());
-    if (const std::size_t bodies = scene.bodyHandler.getSize(); bodies > 0) rows.add("rigid bodies", bodies);
+    if (const std::size_t bodies = scene.particleHandler.store().bodies.size(); bodies > 0)
+        rows.add("rigid bodies", bodies);
     rows.add("walls", numberOfWalls(scene.wallHandler));
     const Vec3D g = scene.getGravity();
     rows.add("gravity", fmt::format("{} {} {}", g.x(), g.y(), g.z()), "m/s^2");
@@ -154,7 +155,7 @@ void addHealth(SummaryRows& rows, const Scene& scene) {
     rows.add("bridges", contacts.bridged);
     rows.add("lists of contacts made", scene.contacts().rebuildCount());
     if (scene.contacts().events().isListening()) {
-        const ContactEventCounts& counts = scene.contactEventCounts();
+        const ContactEventCounts counts = scene.contactEventCounts();
         rows.add("touches begun", counts.touchesBegun);
         rows.add("touches ended", counts.touchesEnded);
         rows.add("bridges formed", counts.bridgesFormed);
@@ -170,7 +171,7 @@ void addHealth(SummaryRows& rows, const Scene& scene) {
 }
 
 void addDomain(SummaryRows& rows, const Scene& scene) {
-    const OverlapWatch& overlaps = scene.contacts().overlaps();
+    const OverlapWatch overlaps = scene.contacts().overlaps();
     rows.addNumber("largest overlap met", overlaps.largestOverlap(), "of the effective radius");
     rows.add("evaluations out of domain", overlaps.countAbove());
     if (scene.laws().hasLargestCapillaryNumber)

@@ -2,6 +2,7 @@
 
 #include "Kernel/Base/Cache.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Contacts/EventsOfRanks.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/Ranks/ProgramRanks.h"
@@ -30,6 +31,8 @@ Scene::Scene() : inside(std::make_unique<Inside>(*this)) {
         const StepTimes::Within sum(stepTimer(), StepTimes::Part::Sum);
         GrainPart::finishLeftStep(inside->context);
     });
+    ParticleHandler::Inside::callToCountAll(particleHandler,
+                                            [this] { return inside->sharing->countOfAll(); });
     wallHandler.callBeforeRemoval([this](int wall) {
         inside->bookEnergyOfEnded(inside->contacts.endContactsAtWall(particleHandler.store(), wall));
     });
@@ -58,8 +61,14 @@ bool Scene::isShared() const { return inside->sharing.has_value(); }
 void Scene::onFirstRank(const std::function<void()>& write) { inside->onFirstRank(write); }
 double Scene::agreeOnLargest(double own) { return isShared() ? inside->sharing->largest(own) : own; }
 
+double Scene::agreeOnDecisions(double own) { return isShared() ? inside->agreeOnDecisions(own) : own; }
+void Scene::agreeOnSettings() { inside->agreeOnSettings(); }
+
 void Scene::tellEvents() {
-    const std::vector<ContactEvent> told = contactEvents();  // gather() in the hook brings others
+    if (!contacts().events().isListening()) return;
+    if (inside->isDistributed())
+        inside->eventsOfAll = pendular::eventsOfAll(contacts().events(), contacts().ranks());
+    const std::vector<ContactEvent> told = contactEvents();  // the hook may listen no more
     for (const ContactEvent& event : told) actionsOnContactEvent(event);
 }
 
@@ -146,6 +155,12 @@ void Scene::acceptOverlaps(double share) {
     inside->acceptedOverlap = share;
 }
 
+void Scene::setHeldContacts(HeldContacts which) {
+    if (which != getHeldContacts()) inside->heldContactsChanged |= hasBegun();
+    inside->contacts.setHeldContacts(which);
+}
+HeldContacts Scene::getHeldContacts() const { return inside->contacts.getHeldContacts(); }
+
 void Scene::keepEnergyLedger(bool keep) {
     if (keep != keepsEnergyLedger()) requireSetUp("energy ledger");
     inside->account.keep(keep);
@@ -185,6 +200,8 @@ void Scene::addOwnPart(std::unique_ptr<StepPart> part) {
     inside->parts.add(std::move(part));
 }
 
+bool Scene::hasPart(std::string_view name) const { return inside->parts.hasOwn(name); }
+
 // Functions that say what the scene has:
 
 double Scene::getShearRate() const { return inside->flow.shearRate(); }
@@ -195,8 +212,12 @@ const Evaporation& Scene::getEvaporation() const { return contacts().movingLiqui
 bool Scene::movesLiquid() const { return contacts().movesLiquid(); }
 double Scene::liquidOfWall(std::size_t wall) const { return contacts().liquidOfWall(wall); }
 LiquidLedger Scene::liquidLedger() const { return inside->liquidLedger(); }
-const std::vector<ContactEvent>& Scene::contactEvents() const { return contacts().events().ofStep(); }
-const ContactEventCounts& Scene::contactEventCounts() const { return contacts().events().counts(); }
+const std::vector<ContactEvent>& Scene::contactEvents() const {
+    return inside->isDistributed() ? inside->eventsOfAll : contacts().events().ofStep();
+}
+ContactEventCounts Scene::contactEventCounts() const {
+    return countsOfAll(contacts().events(), contacts().ranks());
+}
 bool Scene::acceptsUnstableTimeStep() const { return inside->context.acceptsUnstableStep; }
 int Scene::getNumberOfThreads() const { return inside->context.threads; }
 Vec3D Scene::getGravity() const { return toEigen(inside->context.gravity); }
@@ -218,7 +239,19 @@ LiquidLedger Scene::Inside::liquidLedger() const {
     return found;
 }
 
+void Scene::warnOfUnlistedContacts() const {
+    const std::string sentence =
+        inside->unlisted.lookFor(contacts(), particleHandler.store(), wallHandler, getNumberOfTimeSteps());
+    if (!sentence.empty()) inside->context.logger(LogLevel::Warn, "{}.", sentence);
+}
+
 std::vector<ObservedContact> Scene::interactions() const {
+    ParticleHandler::Inside::requireAll(particleHandler, "interactions()");
+    return ownInteractions();
+}
+
+std::vector<ObservedContact> Scene::ownInteractions() const {
+    warnOfUnlistedContacts();
     std::vector<ObservedContact> all;
     const ParticleStore& grains = particleHandler.store();
     contacts().forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
@@ -230,6 +263,7 @@ std::vector<ObservedContact> Scene::interactions() const {
 std::vector<ObservedContact> Scene::interactionsOf(std::size_t identity) const {
     std::vector<ObservedContact> all;
     const std::uint32_t place = particleHandler.placeOf(identity);
+    if (particleHandler.store().translation[place].inverseMass == 0) warnOfUnlistedContacts();
     contacts().forEachActingOf(place, [&](const Bucket& bucket, std::uint32_t contact) {
         all.push_back(contacts().observe(particleHandler.store(), bucket, contact));
     });
@@ -262,6 +296,7 @@ double Scene::sumOverRanks(double own) const {
     sum.add(own);
     return contacts().ranks().sum(sum);
 }
+void Scene::sumOverRanks(std::span<ExactSum* const> own) const { contacts().ranks().addUp(own); }
 double Scene::largestOfRanks(double own) const { return contacts().ranks().largest(own); }
 
 }  // namespace pendular

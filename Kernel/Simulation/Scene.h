@@ -16,6 +16,7 @@
 #include "Kernel/Contacts/ContactEvent.h"
 #include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Contacts/Evaporation.h"
+#include "Kernel/Contacts/HeldContacts.h"
 #include "Kernel/Contacts/LiquidLedger.h"
 #include "Kernel/Contacts/ObservedContact.h"
 #include "Kernel/Energy/EnergyLedger.h"
@@ -36,6 +37,7 @@ namespace pendular {
 
 class AdaptiveStep;
 class ContactSystem;
+class ExactSum;
 class Exchange;
 struct GrainSizes;
 struct RankCounts;
@@ -52,7 +54,8 @@ public:
     virtual void setupInitialConditions() {}
 
     /// Called after a step, before actionsAfterTimeStep(), for each start and end of a touch or a bridge in
-    /// it, in the order of identities; only after listenToContacts().
+    /// it, in the order of identities; only after listenToContacts(). On several ranks each of them is called
+    /// for the events of all.
     virtual void actionsOnContactEvent(const ContactEvent& /*event*/) {}
 
     /// Inserts grains that overlap nothing, at set-up or from a hook, after the walls that are to hold them.
@@ -145,15 +148,17 @@ public:
     /// Threads, at least 1; the results do not depend on their number.
     void setNumberOfThreads(int count);
     /// The scene shares its grains with other ranks (Kernel/Ranks): each sets up all of it, and from
-    /// initialise() on has its own grains only; the results do not depend on the number of ranks. What a
-    /// scene tells of grains and contacts is that of its own, until gather(). Before the run; the exchange
-    /// must outlive it. Where mpirun or srun has started several processes, solve(), runTo() and runSteps()
-    /// share the scene without this call.
+    /// initialise() on has its own grains only; the results do not depend on the number of ranks. What needs
+    /// all grains or contacts is refused until gather(); SumsOverRanks.h has sums over all. Before the run;
+    /// the exchange must outlive it. Where mpirun or srun has started several processes, solve(), runTo() and
+    /// runSteps() share the scene without this call.
     void setRanks(Exchange& exchange, const RankOptions& options);
     void gather() override;
     /// The exact sum, or the largest, of a number of which each rank gives its own part: for hooks, which all
     /// ranks call in the same order. On one rank it is the number itself.
     [[nodiscard]] double sumOverRanks(double own) const;
+    /// Each of these sums of own parts becomes that of all ranks.
+    void sumOverRanks(std::span<ExactSum* const> own) const;
     [[nodiscard]] double largestOfRanks(double own) const;
     /// What this rank has done; nothing without others.
     [[nodiscard]] RankCounts rankCounts() const;
@@ -169,17 +174,34 @@ public:
     /// settled in another run. The stability limit stays that of 0.05: beyond it contacts are stiffer
     /// (stabilityAdvice()).
     void acceptOverlaps(double share);
+    /// Contacts between two grains that are both held along all axes (fixParticle(), prescribed motion), and
+    /// of such a grain with a wall. WhereAsked, the default, lists them where something needs them: all of
+    /// them for heat, those at walls that forces move, whose forces are kept, or that wear. All is for forces
+    /// between held grains (contactForceOn(), interactions(), fields); None leaves them out everywhere. They
+    /// do not change the motion of grains. Dashpots that are made for a restitution have the mass m1 m2 / (m1
+    /// + m2) that both would have if they were free, or m of the grain at a wall. Also in a run, from the
+    /// next step on.
+    void setHeldContacts(HeldContacts which);
+    [[nodiscard]] HeldContacts getHeldContacts() const;
+    /// Warns, once, if two held bodies overlap whose contact is not listed: for functions that show the
+    /// contacts of the scene, as interactions() does.
+    void warnOfUnlistedContacts() const;
     /// Keeps account of the energy; costs time, and is off by default.
     void keepEnergyLedger(bool keep = true);
     /// Something of the driver's own that acts in each step, behind all parts of the kernel (StepPart.h says
     /// when): addPart<Draught>(speed). At set-up only. Throws InputError if there is a part of its name.
     template <std::derived_from<StepPart> Part, class... Arguments>
     Part& addPart(Arguments&&... arguments) {
+        static_assert(!std::is_abstract_v<Part>,
+                      "A part of the step lists what a driver sets of it in compareSetUp(StateArchive&, "
+                      "StepContext&), by archive.same(): a run is resumed with the same settings only.");
         auto part = std::make_unique<Part>(std::forward<Arguments>(arguments)...);
         Part& added = *part;
         addOwnPart(std::move(part));
         return added;
     }
+    /// Whether a part of this name was added by addPart().
+    [[nodiscard]] bool hasPart(std::string_view name) const;
 
     /// In a scene in which liquid moves: it dries so. At set-up only.
     void setEvaporation(const Evaporation& law);
@@ -207,10 +229,10 @@ public:
 
     /// From now on the starts and ends of touches and bridges are found in each step; off by default.
     void listenToContacts(bool listen = true);
-    /// The events of the last step, and how many there have been. On several ranks, of contacts whose body 1
-    /// is here.
+    /// The events of the last step, and how many there have been; on several ranks those of all. All ranks
+    /// must call contactEventCounts() together.
     [[nodiscard]] const std::vector<ContactEvent>& contactEvents() const;
-    [[nodiscard]] const ContactEventCounts& contactEventCounts() const;
+    [[nodiscard]] ContactEventCounts contactEventCounts() const;
 
     /// A number that is kept of each contact from now on, by name: from its first touch or bridge, when it
     /// has the initial value, until it neither touches nor is bridged. It is in restart files and in the
@@ -219,9 +241,12 @@ public:
     ContactColumnReference addContactColumn(const std::string& columnName, const std::string& unit,
                                             double initial = 0);
 
-    /// All contacts that have a force, in the order of identities, as of the last step.
+    /// All contacts that have a force, in the order of identities, as of the last step. Throws InputError
+    /// where each rank has its own grains only: call gather() before, or take sumOverInteractions().
     [[nodiscard]] std::vector<ObservedContact> interactions() const;
-    /// The contacts of one grain. Throws InputError if there is no such grain.
+    /// Those that count on this rank, which owns their grain 1; on one rank, and after gather(), all.
+    [[nodiscard]] std::vector<ObservedContact> ownInteractions() const;
+    /// All contacts of one grain, which this rank owns. Throws InputError if there is no such grain.
     [[nodiscard]] std::vector<ObservedContact> interactionsOf(std::size_t identity) const;
     /// The force (N) of all contacts on a grain, also on one that is held in place; without its weight.
     [[nodiscard]] Vec3D contactForceOn(std::size_t identity) const;
@@ -253,7 +278,8 @@ public:
     [[nodiscard]] double stabilityLimit(std::span<const SphericalParticle> toCome);
     /// The step (s) up to which the contacts that there are now are stable, with their overlaps, neighbours
     /// and directions, friction that sticks, and the spins (ContactBounds); infinite where none acts. It says
-    /// nothing of contacts to come: take a share of it, or setAdaptiveTimeStep(). After initialise().
+    /// nothing of contacts to come: take a share of it, or setAdaptiveTimeStep(). After initialise(); all
+    /// ranks must call it together.
     [[nodiscard]] double stableStepOfContacts();
     /// Which assumption of stabilityLimit() binds, and what is there instead. After initialise().
     [[nodiscard]] StabilityAdvice stabilityAdvice();
@@ -297,6 +323,8 @@ private:
     void onFirstRank(const std::function<void()>& write) override;
     [[nodiscard]] bool areGrainsOnRanks() const override;
     [[nodiscard]] double agreeOnLargest(double own) override;
+    [[nodiscard]] double agreeOnDecisions(double own) override;
+    void agreeOnSettings() override;
     void visitAll(StateArchive& archive) override;
     void writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contacts,
                         const std::string& remark) override;

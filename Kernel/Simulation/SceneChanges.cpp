@@ -76,7 +76,8 @@ void Scene::Inside::takeOverChanges() {
             checkedSizes.hasBodies && !scene.inletHandler.bringBodies() &&
             (scene.outletHandler.isEmpty() ? !contacts.ranks().areSeveral() && context.grains().bodies.empty()
                                            : !contacts.ranks().any(!context.grains().bodies.empty()));
-        if (!newLaws && !changedWalls && !newStep && !lastBodyWent &&
+        const bool newHeld = !isDistributed() && contacts.needsOtherHeld(context.grains());
+        if (!newLaws && !changedWalls && !newStep && !lastBodyWent && !newHeld &&
             !ParticleHandler::Inside::hasChanges(particles))
             return;
         const GrainChanges changes = ParticleHandler::Inside::takeChanges(particles);
@@ -87,7 +88,7 @@ void Scene::Inside::takeOverChanges() {
         const bool bodiesCame = scene.inletHandler.bringBodies() &&
                                 areKnownNewBodies(changes, context.grains(), checkedSizes, bodies.widest()),
                    changedGrains = !changes.placed.empty() || (!changes.altered.empty() && !bodiesCame),
-                   newBodies = changedWalls || changedGrains;
+                   newBodies = changedWalls || changedGrains || newHeld;
         if (newLaws) {
             refuseOtherMemory();
             ParticleHandler::Inside::renewMasses(particles);
@@ -114,6 +115,7 @@ void Scene::Inside::takeOverChanges() {
             return;
         }
         refuseOverlapsOf(changes, firstNewWall);
+        computeChanged(changes, firstNewWall, newHeld);
     } catch (const InputError& refusal) {
         throw RunError(refusal.what());
     }
@@ -188,6 +190,19 @@ void Scene::Inside::renewAccelerations(const GrainChanges& changes) {
         for (const std::uint32_t identity : *identities) places.push_back(grains.place[identity]);
     TimeIntegration::renewAccelerations(grains, contacts.store(), context.gravity, places);
     parts.addAccelerations(context, places);
+}
+
+void Scene::Inside::computeChanged(const GrainChanges& changes, int firstNewWall, bool heldAreNew) {
+    ParticleStore& grains = scene.particleHandler.store();
+    ChangedBodies changed{std::vector<bool>(grains.size()), firstNewWall};
+    for (const auto* identities : {&changes.added, &changes.placed, &changes.altered})
+        for (const std::uint32_t identity : *identities) changed.grains[grains.place[identity]] = true;
+    for (std::size_t place = 0; heldAreNew && place < grains.size(); ++place)
+        if (grains.translation[place].inverseMass == 0) changed.grains[place] = true;
+    const ChangedContacts found =
+        contacts.computeChanged(grains, changed, stepLength(), contactScheme(context).contacts);
+    bookEnergyOfEnded(-found.given);
+    TimeIntegration::renewAccelerations(grains, contacts.store(), context.gravity, found.places);
 }
 
 bool Scene::Inside::isNewToChecks(std::span<const std::uint32_t> added) const {

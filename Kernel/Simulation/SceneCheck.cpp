@@ -71,6 +71,37 @@ static InputError hiddenOverlapError(const ParticleStore& grains, const InitialO
         grains.bodies.bodyOf(overlap.lower), grains.bodies.bodyOf(overlap.higher), overlap.depth));
 }
 
+/// Bodies that are held may overlap as they like: nothing moves them apart.
+static bool areHeld(const ParticleStore& grains, const Bucket& bucket, std::uint32_t first,
+                    std::uint32_t second) {
+    return grains.translation[first].inverseMass == 0 &&
+           (bucket.wall >= 0 || grains.translation[second].inverseMass == 0);
+}
+
+std::string remarkOnHeldOverlaps(const ContactSystem& contacts, const ParticleStore& grains,
+                                 double accepted) {
+    std::optional<InitialOverlap> deepest;
+    contacts.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+        const std::uint32_t first = contacts.firstOf(contact);
+        const std::uint32_t second = bucket.wall >= 0 ? first : contacts.secondOf(contact);
+        if (!areHeld(grains, bucket, first, second)) return;
+        const auto [lower, higher] = std::minmax({grains.identity[first], grains.identity[second]});
+        const double depth = contacts.observe(grains, bucket, contact).overlap(),
+                     share = depth / std::min(radiusOrThickness(contacts.laws(), grains, first),
+                                              radiusOrThickness(contacts.laws(), grains, second));
+        const InitialOverlap one{share, lower, higher, bucket.wall, depth};
+        if (share > accepted && (!deepest || one.isBefore(*deepest))) deepest = one;
+    });
+    if (!deepest) return {};
+    return fmt::format(
+        "{} and {} are held and overlap by {:.3g} % of the smaller radius: their contact has the force of "
+        "that overlap, which counts where such contacts are asked for (forces on walls, heat, "
+        "interactions()); setHeldContacts(HeldContacts::None) leaves them out",
+        nameOfGrain(grains, deepest->lower),
+        deepest->wall < 0 ? nameOfGrain(grains, deepest->higher) : fmt::format("wall {}", deepest->wall),
+        100 * deepest->share);
+}
+
 void refuseInitialOverlaps(
     const ContactSystem& contacts, const ParticleStore& grains, double accepted,
     const std::function<bool(const Bucket&, std::uint32_t, std::uint32_t)>& isLookedAt) {
@@ -81,7 +112,7 @@ void refuseInitialOverlaps(
     contacts.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
         const std::uint32_t first = contacts.firstOf(contact);
         const std::uint32_t second = bucket.wall >= 0 ? first : contacts.secondOf(contact);
-        if (!isLookedAt(bucket, first, second)) return;
+        if (!isLookedAt(bucket, first, second) || areHeld(grains, bucket, first, second)) return;
         const double smaller = std::min(radiusOrThickness(contacts.laws(), grains, first),
                                         radiusOrThickness(contacts.laws(), grains, second));
         const auto [lower, higher] = std::minmax({grains.identity[first], grains.identity[second]});
@@ -127,6 +158,8 @@ void refuseDeepOverlaps(const ContactStore& store, const ParticleStore& grains, 
     store.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
         if (bucket.wall >= 0) return;
         const ContactBlock& block = store.blocks[contact / Pack::lanes];
+        if (areHeld(grains, bucket, block.first[contact % Pack::lanes], block.second[contact % Pack::lanes]))
+            return;
         refuseDeepOverlap(grains, block.first[contact % Pack::lanes], block.second[contact % Pack::lanes],
                           box, laws, laws.ofPair(bucket.species1, bucket.species2).largestOverlapInRun, time);
     });

@@ -14,6 +14,10 @@ void refuseInitialOverlaps(
     const ContactSystem& contacts, const ParticleStore& grains, double accepted,
     const std::function<bool(const Bucket&, std::uint32_t, std::uint32_t)>& isLookedAt);
 
+/// A sentence, without a full stop, where listed contacts of bodies that are held overlap by more than the
+/// accepted share of the smaller radius; else empty.
+std::string remarkOnHeldOverlaps(const ContactSystem& contacts, const ParticleStore& grains, double accepted);
+
 /// Ends a run in which two grains of a list that was just made have come closer than any contact law is made
 /// for: by half the smaller radius, or what the law says (largestOverlapInRun). At walls, a grain that has
 /// gone half its way is followed until its centre crosses the surface.

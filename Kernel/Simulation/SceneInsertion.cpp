@@ -106,7 +106,7 @@ Inserted Scene::insert(const BodyMixture& mixture, const Region& region, const A
             "insert(): it counts by the volume of spheres, and grains are discs (setGrainsAreDiscs(), "
             "setParticleDimensions(2)); add them one by one.");
     const ImagesForNow images = inside->imagesFor(mixture);
-    const std::size_t before = bodyHandler.getSize();
+    const std::size_t before = particleHandler.store().bodies.size();
     const Inserted made =
         insertBodies(InletPart::placesOf(inside->context), mixture, region, amount, options);
     if (hasBegun()) BodyPart::warnOfGaps(inside->context, before);

@@ -27,6 +27,7 @@
 #include "Kernel/Ranks/GrainSharing.h"
 #include "Kernel/Simulation/PeriodicWalls.h"
 #include "Kernel/Simulation/Scene.h"
+#include "Kernel/Simulation/UnlistedContacts.h"
 #include "Kernel/Step/StepList.h"
 
 namespace pendular {
@@ -70,6 +71,12 @@ public:
     void onFirstRank(const std::function<void()>& write);
     /// Of all ranks together; all must call it.
     [[nodiscard]] RunNumbers numbersOfAll();
+    // These throw RunError where ranks differ in what they must have alike; all must call them. At set-up it
+    // is an InputError.
+    /// The largest of what the ranks give, if they have decided alike.
+    [[nodiscard]] double agreeOnDecisions(double own);
+    /// Species, walls and parts, which hooks may have changed; where each rank has all grains, these, too.
+    void agreeOnSettings();
 
     // SceneChanges.cpp
 
@@ -133,9 +140,13 @@ public:
     double approachUnseen = 0;                     // m, of two grains since deep overlaps were looked for
     bool speciesChanged = false;                   // since the run began
     bool gravityChanged = false;                   // since the run began
-    bool lawsAreNew = false;                       // prepared ones are to be made again
-    bool noRoomWasTold = false;                    // of insert() in the run
-    std::optional<GrainSharing> sharing;           // none: the scene has all grains
+    bool heldContactsChanged = false;              // setHeldContacts(), since the run began
+    UnlistedContacts unlisted;
+    bool lawsAreNew = false;                // prepared ones are to be made again
+    bool noRoomWasTold = false;             // of insert() in the run
+    std::vector<ContactEvent> eventsOfAll;  // of the last step, where ranks have their own grains only
+    std::optional<GrainSharing> sharing;    // none: the scene has all grains
+    std::size_t listsAgreed = 0;            // of contacts, at which ranks have compared what they have
 
 private:
     [[nodiscard]] ContactLaws& laws() const { return *context.laws; }
@@ -177,8 +188,21 @@ private:
     /// Whether the checks must be made again for grains that were added.
     [[nodiscard]] bool isNewToChecks(std::span<const std::uint32_t> added) const;
     void renewAccelerations(const GrainChanges& changes);
+    /// Contacts that are changed have the forces of what they are now, and their energy is the driver's.
+    /// @param heldAreNew contacts of held bodies are listed that were not
+    void computeChanged(const GrainChanges& changes, int firstNewWall, bool heldAreNew);
     void refuseOverlapsOf(const GrainChanges& changes, int firstNewWall) const;
     void refuseOtherMemory() const;
+
+    // SceneRanks.cpp
+    /// What all ranks must have alike: in each step, at each list of contacts, and at set-up.
+    void visitStep(StateArchive& archive);
+    void visitSettings(StateArchive& archive);
+    void visitSetUp(StateArchive& archive);
+    void agreeAtList();
+    void agreeOnAll();
+    [[nodiscard]] std::uint64_t hashOfStep();
+    [[noreturn]] void refuseDifference(const std::string& difference) const;
 
     void visitScene(StateArchive& archive);
     void visitSurroundings(StateArchive& archive);

@@ -1,5 +1,11 @@
+#include <fmt/format.h>
+
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Base/SilentRank.h"
 #include "Kernel/Particles/GrainSums.h"
+#include "Kernel/Particles/ParticleHandlerInside.h"
+#include "Kernel/Simulation/RankAgreement.h"
 #include "Kernel/Simulation/SceneInside.h"
 
 // A scene that several ranks share.
@@ -23,9 +29,87 @@ void Scene::Inside::onFirstRank(const std::function<void()>& write) {
     contacts.withAllOnFirst(scene.particleHandler.store(), write);
 }
 
+/// What hooks can change at any time.
+void Scene::Inside::visitStep(StateArchive& archive) {
+    archive.same("the number of steps done", context.number);
+    archive.same("the number of steps that step() is to do", scene.stepsToCome());
+    archive.same("the time step", context.length, "s");
+    archive.sameRecord<double>("gravity", context.gravity, "m/s^2");
+}
+
+std::uint64_t Scene::Inside::hashOfStep() {
+    return hashOf([this](StateArchive& archive) { visitStep(archive); });
+}
+
+void Scene::Inside::visitSettings(StateArchive& archive) {
+    archive.group("species", [&] { laws().visitState(archive, speciesChanged); });
+    archive.group("walls", [&] { scene.wallHandler.visitState(archive); });
+    archive.group("parts", [&] { parts.compareSetUps(archive, context); });
+    // These two may be set again in a run.
+    archive.group("flow", [&] { flow.visitSetting(archive, context); });
+    archive.group("adaptiveStep", [&] { adaptive.visitSetting(archive, context); });
+}
+
+void Scene::Inside::visitSetUp(StateArchive& archive) {
+    scene.visitSteps(archive);
+    scene.visitDecisions(archive);
+    archive.same("integrator", description(integrator));
+    visitSurroundings(archive);
+    visitSettings(archive);
+    archive.same("energyLedger", account.isKept() ? "kept" : "not kept");
+    archive.same("acceptedOverlap", acceptedOverlap);
+    archive.same("gapOfFirstBridges", gapOfFirstBridges, "m");
+}
+
+void Scene::Inside::refuseDifference(const std::string& difference) const {
+    const bool isSetUp = scene.getNumberOfTimeSteps() == scene.getFirstStep();
+    const std::string where = isSetUp ? "At set-up"
+                                      : fmt::format("At time {:.6g} s, after {} steps,", scene.getTime(),
+                                                    scene.getNumberOfTimeSteps());
+    const std::string sentence = fmt::format(
+        "{} the ranks do not agree: {}; set up the same scene on all ranks, and let the hooks of all make "
+        "the "
+        "same changes and decisions.",
+        where, difference.empty() ? "the difference has no name" : difference);
+    if (isSetUp) throw InputError(sentence);
+    throw RunError(sentence);
+}
+
+double Scene::Inside::agreeOnDecisions(double own) {
+    const ToAgreeOn visit = [this](StateArchive& archive) { scene.visitDecisions(archive); };
+    const GrainSharing::OfAll all = sharing->agree(Reduction::Decisions, hashOf(visit), own);
+    if (!all.areAlike) refuseDifference(differenceOfRanks(*sharing, visit));
+    return all.shift;
+}
+
+void Scene::Inside::agreeOnSettings() {
+    if (!sharing) return;
+    if (!isDistributed()) return agreeOnAll();
+    // Long tables are shapes, which no hook changes.
+    constexpr std::size_t largestTable = 256;  // bytes
+    const ToAgreeOn visit = [this](StateArchive& archive) { visitSettings(archive); };
+    if (!sharing->agree(Reduction::SetUp, hashOf(visit, largestTable)).areAlike)
+        refuseDifference(differenceOfRanks(*sharing, visit));
+}
+
+void Scene::Inside::agreeAtList() {
+    if (!isDistributed() || contacts.rebuildCount() == listsAgreed) return;
+    listsAgreed = contacts.rebuildCount();
+    agreeOnSettings();
+}
+
+void Scene::Inside::agreeOnAll() {
+    ParticleStore& grains = scene.particleHandler.store();
+    const ToAgreeOn visit = [this](StateArchive& archive) { visitSetUp(archive); };
+    if (!sharing->agree(Reduction::SetUp, hashOf(visit)).areAlike)
+        refuseDifference(differenceOfRanks(*sharing, visit));
+    if (!sharing->agree(Reduction::SetUp, hashOfGrains(grains)).areAlike)
+        refuseDifference(differenceOfGrains(*sharing, grains));
+}
+
 RunNumbers Scene::Inside::numbersOfAll() {
     const ParticleStore& grains = scene.particleHandler.store();
-    RunNumbers own{scene.particleHandler.getSize(), 0, kineticEnergy(grains)};
+    RunNumbers own{grains.count(), 0, kineticEnergy(grains)};
     // A contact of two ranks counts where its first body is.
     contacts.forEachActing(grains, [&](const Bucket&, std::uint32_t) { ++own.contacts; });
     RunNumbers all;

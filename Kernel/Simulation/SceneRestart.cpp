@@ -49,6 +49,16 @@ void Scene::Inside::visitSurroundings(StateArchive& archive) {
     archive.value("gravityChanged", gravityChanged);
     if (gravityChanged) archive.finite("gravity", context.gravity);
     ParticleHandler::Inside::setGravity(scene.particleHandler, context.gravity);
+    archive.value("heldContactsChanged", heldContactsChanged);
+    int held = static_cast<int>(contacts.getHeldContacts());
+    if (heldContactsChanged) {
+        archive.value("heldContacts", held);
+        archive.require(held >= 0 && held <= static_cast<int>(HeldContacts::None), "heldContacts",
+                        "is no setting of setHeldContacts()");
+        contacts.setHeldContacts(static_cast<HeldContacts>(held));
+    } else {
+        archive.same("heldContacts", held, {}, "setHeldContacts(): 0 is WhereAsked, 1 All, 2 None");
+    }
     for (std::size_t k = 0; k < 3; ++k) {
         if (!gravityChanged)
             archive.group("gravity", [&] { archive.same(axes[k], context.gravity.*along[k], "m/s^2"); });

@@ -71,6 +71,7 @@ void Scene::Inside::setUp() {
     }
     prepare();
     ParticleStore& grains = particles.store();
+    if (sharing) agreeOnAll();
     if (periodicWalls.haveEnds()) wrapAll(grains);
     contacts.refresh(grains, 0, 0);
     if (gapOfFirstBridges > 0) {
@@ -78,6 +79,8 @@ void Scene::Inside::setUp() {
         contacts.join(grains, gapOfFirstBridges);
     }
     refuseInitialOverlaps(contacts, grains, acceptedOverlap, [](auto&&...) { return true; });
+    if (const std::string remark = remarkOnHeldOverlaps(contacts, grains, acceptedOverlap); !remark.empty())
+        scene.logger(LogLevel::Warn, "{}.", remark);
     TimeIntegration::start(grains, integrator);
     advance(0, false);  // a step of no length: forces and accelerations at the start
     account.beginWithThis();

@@ -49,7 +49,7 @@ StabilityAdvice Scene::stabilityAdvice() {
     const ContactBound now = find({}), pressed = find({.leastOverlap = largestSoundOverlap}),
                        smooth = find({.sticking = false});
     const double limit = stabilityLimit();
-    const bool acts = now.step < infinity;
+    const bool acts = now.step < infinity, isOfGrain = acts && now.wall < 0;
     std::size_t sides = 0, moving = 0;
     contacts().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
         if (contacts().touches(contact)) sides += bucket.wall < 0 ? 2 : 1;
@@ -66,8 +66,9 @@ StabilityAdvice Scene::stabilityAdvice() {
         .contactsOfGrain = static_cast<double>(sides) / static_cast<double>(std::max<std::size_t>(moving, 1)),
         .slidingShare = slidingShare(contacts(), grains),
         .grain = now.grain,
-        .body = acts ? grains.bodies.bodyOf(now.grain) : RigidBodies::none,
-        .species = acts ? grains.species[grains.place[now.grain]] : std::uint16_t{0},
+        .body = isOfGrain ? grains.bodies.bodyOf(now.grain) : RigidBodies::none,
+        .species = isOfGrain ? grains.species[grains.place[now.grain]] : std::uint16_t{0},
+        .wall = now.wall,
         .contactsOfThis = now.contactsOfGrain,
         .overlapOfThis = now.overlapOfGrain};
 }

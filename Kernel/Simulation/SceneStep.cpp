@@ -1,6 +1,7 @@
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
+#include "Kernel/Simulation/RankAgreement.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneInside.h"
 
@@ -19,6 +20,7 @@ StepContext& Scene::Inside::contextNow(double length) {
 }
 
 void Scene::Inside::advanceByStep(bool another) {
+    if (sharing && !isDistributed()) agreeOnAll();  // hooks or the driver may have changed all of it
     WithinStep time(scene);
     takeOverChanges();
     try {
@@ -90,8 +92,13 @@ void Scene::Inside::moveAll(StepContext& step) {
     parts.call(&StepPart::moveGrains, step);
     if (sharing) {
         // All list in the same step.
-        step.shifts.grains = sharing->exchangeStep(step.grains(), contactScheme(step).contacts.springsInStep,
-                                                   step.shifts.grains);
+        const GrainSharing::OfAll all =
+            sharing->exchangeStep(step.grains(), contactScheme(step).contacts.springsInStep,
+                                  step.shifts.grains, isDistributed() ? hashOfStep() : 0);
+        if (!all.areAlike)
+            refuseDifference(
+                differenceOfRanks(*sharing, [this](StateArchive& archive) { visitStep(archive); }));
+        step.shifts.grains = all.shift;
         step.shifts.approach = 2 * step.shifts.grains;
     }
     refuseRunaway(step.shifts.grains);
@@ -113,6 +120,7 @@ void Scene::Inside::findForces(StepContext& step) {
     bringBack(step);
     if (periodicWalls.takeNewImages()) contacts.listNow(grains);
     else contacts.refresh(grains, step.shifts.grains, step.shifts.walls);
+    agreeAtList();
     if (periodicWalls.haveEnds()) bringBackAtWalls(step);
     lookForDeepOverlaps(grains, step.shifts.approach);
     step.times.enter(StepTimes::Part::Contacts);

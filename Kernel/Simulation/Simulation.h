@@ -3,6 +3,7 @@
 #include "Kernel/Contacts/PopularSpecies.h"
 #include "Kernel/Contacts/SeveralSpeciesLaws.h"
 #include "Kernel/Simulation/Scene.h"
+#include "Kernel/Simulation/SumsOverRanks.h"
 
 namespace pendular {
 

@@ -12,7 +12,8 @@
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Simulation/OverlapEstimate.h"
 #include "Kernel/Simulation/Scene.h"
-#include "Kernel/Species/Field.h"
+#include "Kernel/Simulation/SceneSoftness.h"
+#include "Kernel/Species/ElasticConstants.h"
 
 namespace pendular {
 namespace {
@@ -66,7 +67,7 @@ double modulusOfImpact(double overlap, double density, double speed, double pois
 void check(const SoftnessQuestion& q) {
     constexpr std::string_view call = "softestModulus";
     checkValue(call, "modulus", q.modulus, "Pa", positive);
-    checkValue(call, "poissonRatio", q.poissonRatio, "", {-1, 0.5, false, true});
+    checkValue(call, "poissonRatio", q.poissonRatio, "", poissonRatios);
     checkValue(call, "density", q.density, "kg/m^3", positive);
     checkValue(call, "diameter", q.diameter, "m", positive);
     checkValue(call, "pressure", q.pressure, "Pa", notNegative);
@@ -124,6 +125,11 @@ std::vector<SoftnessBound> boundsOf(const SoftnessQuestion& q) {
 
 }  // namespace
 
+void setGain(SoftnessAdvice& advice, double longerSteps) {
+    const double decades = 2 * std::log10(std::max(longerSteps, 1.0));
+    advice.leastGain = std::pow(2.2, decades), advice.mostGain = std::pow(3.1, decades);
+}
+
 std::string_view nameOf(WantedFigure figure) { return rowOf(figure).name; }
 
 const std::vector<WantedFigure>& allWantedFigures() {
@@ -158,11 +164,10 @@ SoftnessQuestion softnessOf(Scene& scene, double pressure) {
 
 SoftnessAdvice softestModulus(const SoftnessQuestion& question) {
     check(question);
-    SoftnessAdvice advice{.modulus = question.modulus, .bounds = boundsOf(question)};
+    SoftnessAdvice advice;
+    advice.bounds = boundsOf(question);
     advice.modulus = std::min(question.modulus, advice.bounds.front().modulus);
-    // Steps are longer by 10^(1/2) a decade; measured, with more contacts and the lists of grains.
-    const double decades = std::log10(question.modulus / advice.modulus);
-    advice.leastGain = std::pow(2.2, decades), advice.mostGain = std::pow(3.1, decades);
+    setGain(advice, std::sqrt(question.modulus / advice.modulus));
     // Rebound and sticking of JKR's, DMT's and constant pulls on Hertz's law are similar at w ~ E^(2/5).
     if (question.pull > 0 && question.kept == KeptCohesion::Collisions)
         advice.adhesionFactor = std::pow(advice.modulus / question.modulus, 0.4);
@@ -170,16 +175,22 @@ SoftnessAdvice softestModulus(const SoftnessQuestion& question) {
 }
 
 std::string SoftnessAdvice::text() const {
-    std::string text = fmt::format("Softest modulus: {:.3g} Pa, {:.2g} to {:.2g} times as fast.", modulus,
-                                   leastGain, mostGain);
+    std::string text = fmt::format("Softest modulus: {:.3g} Pa, ", modulus);
+    text += step ? fmt::format("{:.3g} to {:.3g} times as fast if all stiffnesses are scaled as below.",
+                               leastGain, mostGain)
+                 : fmt::format("{:.2g} to {:.2g} times as fast where contacts by Hertz's law limit the step.",
+                               leastGain, mostGain);
     for (const SoftnessBound& bound : bounds)
         text += fmt::format("\n  {:.3g} Pa for {}.", bound.modulus, bound.reason);
     if (adhesionFactor < 1)
         text +=
             fmt::format("\nMultiply the work of adhesion by {:.3g}, which keeps collisions.", adhesionFactor);
+    text += step ? textOf(*step)
+                 : "\nScale with it, of all species and those of walls too, every modulus; and by its power "
+                   "2/3 every stiffness in N/m (sliding, rolling, torsion), as one that stays may limit the "
+                   "step; and the moduli of bonds.";
     return text +
-           "\nScale the shear modulus with it, keep restitution and friction, and prove it by runs with this "
-           "modulus and three times it.";
+           "\nKeep restitution and friction, and prove it by runs with this modulus and three times it.";
 }
 
 }  // namespace pendular

@@ -18,11 +18,13 @@ std::string StabilityAdvice::text() const {
     return fmt::format(
         "The stability limit of {:.3g} s supposes {}; the contacts that there are stand {:.3g} s. Overlaps: "
         "{:.2g} % at most, {:.2g} % in the mean (factor {:.3g}); {:.3g} contacts a grain (factor {:.3g}); "
-        "{:.0f} % of them slide (if all did: factor {:.3g}). The step is bounded by {} of species {}, with "
+        "{:.0f} % of them slide (if all did: factor {:.3g}). The step is bounded by {}, with "
         "{} contacts and an overlap of {:.2g} %.",
         limit, binding, step, 100 * largestOverlap, 100 * meanOverlap, byOverlap, contactsOfGrain,
-        byNeighbours, 100 * slidingShare, byFriction, nameOfGrain(grain, body), species, contactsOfThis,
-        100 * overlapOfThis);
+        byNeighbours, 100 * slidingShare, byFriction,
+        wall >= 0 ? fmt::format("wall {}, which forces move", wall)
+                  : fmt::format("{} of species {}", nameOfGrain(grain, body), species),
+        contactsOfThis, 100 * overlapOfThis);
 }
 
 double slidingShare(const ContactSystem& contacts, const ParticleStore& grains) {

@@ -25,6 +25,7 @@ struct StabilityAdvice {
     std::uint32_t grain;     // that bounds the step, by identity
     std::uint32_t body;      // its rigid body, or RigidBodies::none
     std::uint16_t species;   // its own
+    int wall;                // that bounds the step in place of a grain, by number; -1: none
     std::size_t contactsOfThis;
     double overlapOfThis;  // the largest, of the smaller radius
 

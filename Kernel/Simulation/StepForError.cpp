@@ -39,8 +39,9 @@ struct SpeciesAt {
 struct Meeting {
     std::size_t species1, species2;
     Bodies bodies;
-    double halfPeriod;  // s
-    double range;       // m, of the gap at which they begin to attract each other
+    double halfPeriod;   // s
+    double range;        // m, of the gap at which they begin to attract each other
+    double quicker = 1;  // so many times as long is a touch as computed, because forces move the wall
 
     [[nodiscard]] bool isAtWall() const { return !(bodies.radius2 < infinity); }
 };
@@ -223,14 +224,15 @@ public:
         for (double steps = std::max(fewestSteps, stepsAt(notAbove) - 1); steps < 1.6 * mostSteps;
              steps *= 1.25) {
             within = errorsAt(steps, error).largest <= error ? within + 1 : 0;
-            if (within == 3) return std::min(notAbove, contactTime / (steps / (1.25 * 1.25) + 1));
+            if (within == 3)
+                return std::min(notAbove, meeting.quicker * contactTime / (steps / (1.25 * 1.25) + 1));
         }
         throw InputError(fmt::format(
             "setStepFor: an error of {:.4g} needs more than {:.0f} steps in a contact of species {} with {}; "
             "ask for a larger error, or take an integrator that is more exact in it.",
             error, mostSteps, meeting.species1, meeting.species2));
     }
-    [[nodiscard]] double stepsAt(double step) const { return contactTime / step; }
+    [[nodiscard]] double stepsAt(double step) const { return meeting.quicker * contactTime / step; }
 
 private:
     static constexpr double stepsOfExact = 2000, fewestSteps = 5, mostSteps = 1000;
@@ -255,6 +257,18 @@ private:
     bool anyParts = false;
 };
 
+/// By how much a touch of a mass (kg) at a wall that forces move is shorter than at one that is held:
+/// sqrt(m* / m), of the walls of a species the most. Collisions are computed at a wall that is held, and are
+/// taken to be as exact at the other with as many steps in the touch.
+double quickerAtWall(const Scene& scene, int wallSpecies, double mass) {
+    double mobility = 0;
+    for (std::size_t w = 0; w < scene.wallHandler.getSize(); ++w)
+        if (const Wall& wall = scene.wallHandler.getObject(w);
+            !scene.wallHandler.isRemoved(w) && wall.getSpeciesIndex() == wallSpecies)
+            mobility = std::max(mobility, mobilityOfWall(wall));
+    return 1 / std::sqrt(1 + mass * mobility);
+}
+
 /// For each two species, and each species with each wall's, the bodies that part soonest.
 std::vector<Meeting> meetingsOf(Scene& scene) {
     std::map<std::array<std::size_t, 3>, Meeting> soonest;
@@ -262,13 +276,14 @@ std::vector<Meeting> meetingsOf(Scene& scene) {
         scene.laws(), scene.grainSizes(scene.particleHandler.store()), scene.wallHandler,
         [&](const PairLaws& pair, const Bodies& bodies, double effectiveMass) {
             const bool attractsBefore = !pair.laws.ofPair(pair.a, pair.b).formsAtContact;
-            const Meeting found{static_cast<std::size_t>(pair.a), static_cast<std::size_t>(pair.b), bodies,
-                                halfPeriod(pair, bodies, effectiveMass),
-                                attractsBefore ? pair.range(bodies) : 0};
+            Meeting found{static_cast<std::size_t>(pair.a), static_cast<std::size_t>(pair.b), bodies,
+                          halfPeriod(pair, bodies, effectiveMass), attractsBefore ? pair.range(bodies) : 0};
+            if (found.isAtWall()) found.quicker = quickerAtWall(scene, pair.b, effectiveMass);
             std::array<std::size_t, 3> key{found.species1, found.species2, found.isAtWall() ? 1u : 0u};
             if (!found.isAtWall() && key[0] > key[1]) std::swap(key[0], key[1]);
             const auto [at, isNew] = soonest.try_emplace(key, found);
-            if (!isNew && found.halfPeriod < at->second.halfPeriod) at->second = found;
+            const auto time = [](const Meeting& meeting) { return meeting.quicker * meeting.halfPeriod; };
+            if (!isNew && time(found) < time(at->second)) at->second = found;
         });
     std::vector<Meeting> meetings;
     for (const auto& [key, meeting] : soonest) meetings.push_back(meeting);
@@ -278,8 +293,10 @@ std::vector<Meeting> meetingsOf(Scene& scene) {
 /// s: up to which figures of beds and flows keep to an error.
 double stepOfBeds(Scene& scene, double error) {
     constexpr double resolved = 0.01;
+    const GrainSizes sizes = scene.grainSizes(scene.particleHandler.store());
     const double ofFastest =
-        stepOfFastestPair(scene.laws(), scene.grainSizes(scene.particleHandler.store()), scene.wallHandler);
+        std::min(stepOfFastestPair(scene.laws(), sizes, scene.wallHandler),
+                 limitOfMovedWalls(scene.laws(), sizes, scene.wallHandler, scene.getIntegrator()));
     const std::string_view name = scene.getIntegrator().name;
     if (error < resolved) return std::min(scene.stabilityLimit(), ofFastest);
     if (name == integrators::predictedVelocityVerlet.name || name == integrators::springsInStep.name)

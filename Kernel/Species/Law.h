@@ -111,12 +111,15 @@ struct NormalHistoryOf<Law> {
 };
 
 /// A normal law whose contacts change with time at a given overlap: creep(p, contact, step, history) brings
-/// the history on by a step (s), after the forces of the step; it must not raise the elastic energy.
+/// the history on by the step (s) that has come to its end, at the overlap there, before the force: a rate
+/// that depends on the force must be implicit in it, as no limit of the step knows it. It must not raise the
+/// elastic energy, of which it has taken creepLoss(p, contact, before, after), J.
 template <class Law>
 concept Creeps = HasNormalHistory<Law> &&
     requires(const typename Law::Prepared p, const Contact<double>& contact,
              typename NormalHistoryOf<Law>::template type<double> history) {
     Law::creep(p, contact, 1.0, history);
+    { Law::creepLoss(p, contact, history, history) } -> std::same_as<double>;
 };
 
 /// A normal law with an attraction of its own while bodies touch, pull(p, effective radius) in N: it counts
@@ -251,6 +254,18 @@ template <class Law>
 inline constexpr BridgeResists bridgeResists = [] {
     if constexpr (requires { Law::resists; }) return Law::resists;
     else return BridgeResists::Nothing;
+}();
+
+/// Of a law that resists motion, for how many contacts of a grain its own implicit dashpot stands: n. The
+/// velocity of a contact is found from the last one as if the change of its own force moved its bodies n
+/// times as far. A steady force does not change, so nothing is different then; but where the resistance is
+/// large, the force of a mode of which the contacts of a bed add up to L times that of one goes by the factor
+/// (n - 2 L) / n in a step: with n > L any resistance is stable. With 1, the default, the resistance must be
+/// known to the limit of the step.
+template <class Law>
+inline constexpr double implicitNeighbours = [] {
+    if constexpr (requires { Law::implicitNeighbours; }) return Law::implicitNeighbours;
+    else return 1.0;
 }();
 
 /// How the ends of a bridge move in a step.

@@ -13,7 +13,9 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Species/KnownValues.h"
+#include "Kernel/Species/SetValues.h"
 #include "Kernel/Species/Species.h"
+#include "Kernel/Species/SpeciesInScene.h"
 #include "Kernel/State/StateArchive.h"
 
 namespace pendular {
@@ -92,6 +94,16 @@ public:
     void setMixtures(std::size_t speciesCount, std::vector<std::optional<Mixed>> mixed) {
         count = speciesCount;
         mixtures = std::move(mixed);
+    }
+
+    /// Of each species, and of each pair with values of its own.
+    [[nodiscard]] std::vector<SetValues> setValues() {
+        std::vector<SetValues> found;
+        for (S& species : all)
+            found.push_back({species.getIndex(), species.getIndex(), S::name, namedFields<Mixed>(species)});
+        for (auto& [pair, laws] : own)
+            found.push_back({pair.first, pair.second, S::name, namedFields<Mixed>(laws)});
+        return found;
     }
 
     /// A run goes on with the species that it began with: their fields and the pairs' own values. Where they

@@ -85,12 +85,18 @@ private:
     }
     void addBridge([[maybe_unused]] const PressedPair& pair, [[maybe_unused]] ContactStiffness& found) const {
         if constexpr (bridgeResists<Adhesion> != BridgeResists::Nothing) {
-            const BridgeResistance<double> bridge =
-                static_cast<const Adhesion&>(laws).largestResistance(pair.bodies);
+            const BridgeResistance<double> bridge = resistanceOf(laws, pair);
             found.normal.dashpot += bridge.normal;
             found.sliding.dashpot += bridge.sliding + std::abs(bridge.coupling);
             found.rolling.dashpot += bridge.rolling + std::abs(bridge.coupling);
         }
+    }
+
+    /// The largest that the law can have, or, where it grows with the overlap, that of now.
+    static BridgeResistance<double> resistanceOf(const Adhesion& law, const PressedPair& pair) {
+        if constexpr (requires { law.resistanceAt(pair.bodies, pair.overlap); })
+            return law.resistanceAt(pair.bodies, pair.overlap);
+        else return law.largestResistance(pair.bodies);
     }
 
     const Mixed& laws;

@@ -27,6 +27,16 @@ private:
     herr_t (*close)(hid_t);
 };
 
+// HDF5 1.12 gave the record that H5Ovisit passes to its callback a new layout, and both a new number. Without
+// a number, a name means what H5_USE_..._API selects: the newest one.
+#if H5_VERSION_GE(1, 12, 0)
+using ObjectInfo = H5O_info2_t;
+inline constexpr auto visitObjects = &H5Ovisit3;
+#else
+using ObjectInfo = H5O_info_t;
+inline constexpr auto visitObjects = &H5Ovisit2;
+#endif
+
 inline hid_t nativeType(NumberKind kind) {
     switch (kind) {
         case NumberKind::Float64:

@@ -9,7 +9,7 @@
 namespace pendular {
 
 /// The format of restart files that this version writes, and the only one that it reads.
-inline constexpr int restartFormat = 10;
+inline constexpr int restartFormat = 11;
 
 /// The restart file of a run of this name (its setName()).
 inline std::filesystem::path restartFileOf(const std::string& name) { return name + "-restart.h5"; }

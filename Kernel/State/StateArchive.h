@@ -14,6 +14,7 @@
 
 #include "Kernel/Base/LargePages.h"
 #include "Kernel/State/Hdf5File.h"
+#include "Kernel/State/StateDigest.h"
 
 namespace pendular {
 
@@ -45,12 +46,14 @@ class StateArchive {
 public:
     enum class Direction { Write, Read };
 
-    StateArchive(Hdf5File& stateFile, Direction way) : file(stateFile), direction(way) {}
+    StateArchive(Hdf5File& stateFile, Direction way) : file(&stateFile), direction(way) {}
+    /// Writes into a hash instead of a file.
+    explicit StateArchive(StateDigest& into) : direction(Direction::Write), digest(&into) {}
 
     [[nodiscard]] bool isReading() const { return direction == Direction::Read; }
     [[nodiscard]] bool isWriting() const { return direction == Direction::Write; }
     /// Whether a file that is read has something of this name.
-    [[nodiscard]] bool holds(std::string_view name) const { return file.holds(fullName(name)); }
+    [[nodiscard]] bool holds(std::string_view name) const { return file && file->holds(fullName(name)); }
 
     /// All that is visited within the function is in this group.
     template <class Function>
@@ -120,7 +123,10 @@ public:
     requires std::is_arithmetic_v<Number>
     void same(std::string_view name, Number number, std::string_view unit = {},
               std::string_view advice = "a run goes on with the values it began with") {
-        if (!isReading()) return value(name, number);
+        if (!isReading()) {
+            unitOfNext = unit;
+            return value(name, number);
+        }
         Number kept{};
         value(name, kept);
         const std::string before = shown(kept), after = shown(number);
@@ -131,19 +137,42 @@ public:
     /// @param kept, now: what the sentence shows
     void requireSame(bool isSame, std::string_view name, const std::string& kept, const std::string& now,
                      std::string_view unit, std::string_view advice) const;
+    /// A list of numbers, or of records of numbers. Where it is another one, the sentence has all of a short
+    /// list, and of a long one the first number that differs.
     template <class Number, RecordOf<Number> Record>
-    void same(std::string_view name, std::span<const Record> records) {
+    void same(std::string_view name, std::span<const Record> records, std::string_view unit = {}) {
         std::vector<Number> numbers(records.size_bytes() / sizeof(Number));
         if (!records.empty()) std::memcpy(numbers.data(), records.data(), records.size_bytes());
-        if (!isReading()) return column<Number>(name, numbers);
+        if (!isReading()) {
+            unitOfNext = unit;
+            return column<Number>(name, numbers);
+        }
         std::vector<Number> kept;
         column<Number>(name, kept);
-        expectEqual(name, kept == numbers);
+        const auto isEqual = [](Number a, Number b) { return a == b || (a != a && b != b); };
+        if (std::ranges::equal(kept, numbers, isEqual)) return;
+        const auto shape = [](std::span<const Number> part) {
+            return TableShape{kindOf<Number>(), part.size(), 1};
+        };
+        std::span<const Number> inFile(kept), inScene(numbers);
+        std::string what(name);
+        if (kept.size() == numbers.size() && kept.size() > mostShown) {
+            const auto at =
+                static_cast<std::size_t>(std::ranges::mismatch(kept, numbers, isEqual).in1 - kept.begin());
+            inFile = inFile.subspan(at, 1), inScene = inScene.subspan(at, 1);
+            what += numberOfList(at);
+        }
+        requireSame(false, what, shownNumbers(shape(inFile), inFile.data(), unit),
+                    shownNumbers(shape(inScene), inScene.data(), unit), {},
+                    "a run goes on with the values it began with");
     }
     template <class Number, RecordOf<Number> Record>
-    void sameRecord(std::string_view name, const Record& numbers) {
-        same<Number>(name, std::span<const Record>(&numbers, 1));
+    void sameRecord(std::string_view name, const Record& numbers, std::string_view unit = {}) {
+        same<Number>(name, std::span<const Record>(&numbers, 1), unit);
     }
+    /// What a function of the driver gives, which another machine may compute with other last digits: the
+    /// same within 1e-9 of the largest number.
+    void sameValues(std::string_view name, std::vector<double> numbers, std::string_view unit);
 
 private:
     [[nodiscard]] std::string fullName(std::string_view name) const { return prefix + std::string(name); }
@@ -159,13 +188,16 @@ private:
     [[noreturn]] void refuse(std::string_view name, std::string_view whatIsWrong) const;
     [[noreturn]] void refuseMissing(std::string_view name) const;
     void transfer(std::string_view name, const TableShape& shape, void* numbers);
-    void expectEqual(std::string_view name, bool equal) const;
+    static constexpr std::size_t mostShown = 9;
+    static std::string numberOfList(std::size_t at);
     static std::string shown(double number);
     static std::string shown(std::integral auto number) { return std::to_string(number); }
 
-    Hdf5File& file;
+    Hdf5File* file = nullptr;
     Direction direction;
     std::string prefix;
+    StateDigest* digest = nullptr;     // in place of a file
+    std::string_view unitOfNext = {};  // of what same() writes, for the digest
 };
 
 }  // namespace pendular

@@ -23,6 +23,10 @@ void StepList::add(std::unique_ptr<StepPart> part) {
     own.push_back(std::move(part));
 }
 
+bool StepList::hasOwn(std::string_view name) const {
+    return std::ranges::any_of(own, [&](const auto& part) { return part->name() == name; });
+}
+
 Features StepList::wake(const StepContext& context) {
     Features all;
     awake.clear();
@@ -93,7 +97,21 @@ void StepList::visitStates(StateArchive& archive, StepContext& context) const {
     for (const auto& part : own) names.push_back(part->name());
     archive.same("partsOfTheDriver", fmt::format("{}", fmt::join(names, ", ")));
     for (StepPart* const part : parts)
-        archive.group(part->name(), [&] { part->visitState(archive, context); });
+        archive.group(part->name(), [&] {
+            part->compareSetUp(archive, context);
+            part->visitState(archive, context);
+        });
+}
+
+void StepList::compareSetUps(StateArchive& archive, StepContext& context) const {
+    for (StepPart* const part : parts)
+        archive.group(part->name(), [&] { part->compareSetUp(archive, context); });
+}
+
+std::vector<std::string_view> StepList::names() const {
+    std::vector<std::string_view> all;
+    for (const StepPart* const part : parts) all.push_back(part->name());
+    return all;
 }
 
 void StepList::addTo(SummaryRows& rows) const {

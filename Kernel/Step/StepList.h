@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "Kernel/Step/StepPart.h"
@@ -18,6 +19,8 @@ public:
 
     /// A part of a driver's own comes behind all others. Throws InputError if there is a part of its name.
     void add(std::unique_ptr<StepPart> part);
+    /// Whether a part of a driver's own has this name.
+    [[nodiscard]] bool hasOwn(std::string_view name) const;
 
     /// Finds out which parts the scene has, and what it has by them.
     Features wake(const StepContext& context);
@@ -43,6 +46,9 @@ public:
     /// A group of each part, asleep or not: a scene that goes on is held against all of them.
     void visitSettings(StateArchive& archive, StepContext& context) const;
     void visitStates(StateArchive& archive, StepContext& context) const;
+    /// What drivers set of all parts, for ranks to compare.
+    void compareSetUps(StateArchive& archive, StepContext& context) const;
+    [[nodiscard]] std::vector<std::string_view> names() const;
     void addTo(SummaryRows& rows) const;
 
 private:

@@ -24,8 +24,8 @@ struct SceneChanges {
 
 /// Something that acts in the steps of a scene. A scene calls its parts in the order of their list, phase by
 /// phase, and takes a step that fails back in the opposite order. A driver adds a part of its own by
-/// addPart(). A part whose features the scene does not have sleeps: only begin(), visitSetting() and
-/// visitState() are called.
+/// addPart(). A part whose features the scene does not have sleeps: only begin(), compareSetUp(),
+/// visitSetting() and visitState() are called.
 ///
 /// Errors: a part throws InputError or RunError with one sentence; in a run both end it, with the sentence.
 class StepPart {
@@ -88,6 +88,12 @@ public:
     /// Whether the part of a driver's own acts alike where ranks share the scene: each has its own grains and
     /// ghosts of others (Kernel/Ranks/README.md). Else it is refused there.
     [[nodiscard]] virtual bool actsOnRanks() const { return false; }
+
+    /// Lists all that a driver sets of the part, each by archive.same(name, value, unit): a run that is
+    /// resumed with another value ends with a sentence that names it, and ranks compare the values as well.
+    /// What the run itself may change is compared unless it has. A part without settings overrides this by an
+    /// empty function.
+    virtual void compareSetUp(StateArchive&, StepContext&) = 0;
 };
 
 }  // namespace pendular

@@ -27,6 +27,7 @@ public:
 
     [[nodiscard]] int getSpeciesIndex() const { return like.getSpeciesIndex(); }
     [[nodiscard]] const Vec3D& getVelocity() const { return like.getVelocity(); }
+    [[nodiscard]] const Vec3D& getAngularVelocity() const { return like.getAngularVelocity(); }
     [[nodiscard]] const Eigen::Quaterniond& getOrientation() const { return orientationValue; }
     /// The sphere around it, with its species and motion.
     [[nodiscard]] const SphericalParticle& around() const { return like; }

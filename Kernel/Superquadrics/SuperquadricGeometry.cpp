@@ -57,6 +57,7 @@ void SuperquadricGeometry::takeLast(const ContactTask& task, std::size_t block) 
     contacts = &task.store.blocks[block];
     acted = Mask(false);
     normalBefore = zero();
+    if (task.held && task.held->masses) takeHeldMasses(task, block);
     const std::uint32_t slot = task.store.slots[block];
     if (slot == ContactStore::asleep || slot == ContactStore::waking) return;
     const BlockState& state = task.store.states[block];
@@ -65,6 +66,15 @@ void SuperquadricGeometry::takeLast(const ContactTask& task, std::size_t block) 
     acted = maskFromBits(static_cast<std::uint8_t>(state.touching | state.bridged)) &
             (squaredNorm(last) > Pack(0.5));
     normalBefore = select(acted, last, zero());
+}
+
+void SuperquadricGeometry::takeHeldMasses(const ContactTask& task, std::size_t block) {
+    const ContactBlock& places = task.store.blocks[block];
+    const double* const masses = task.held->masses;
+    LaneColumn found;
+    for (std::size_t k = 0; k < Pack::lanes; ++k)
+        found.lane[k] = massOfHeldPair(masses[places.first[k]], isAtWall ? 0 : masses[places.second[k]]);
+    massIfHeld = Pack::load(found.lane.data());
 }
 
 /// m, up to which contacts are to be known though they are apart: the range of what attracts, where it can be
@@ -223,7 +233,10 @@ ContactGeometry<Pack> SuperquadricGeometry::complete() const {
     g.inverseDistance = Pack(0);
     g.effectiveRadius = effectiveRadius;
     g.inverseMass = inverseMass;
-    g.effectiveMass = Pack(1) / inverseMass;
+    // Of bodies that are held the response is 0, but for round-off.
+    g.effectiveMass =
+        select(massIfHeld > Pack(0), select(inverseMass > Pack(1e-150), Pack(1) / inverseMass, massIfHeld),
+               Pack(1) / inverseMass);
     g.velocity = velocity;
     g.spinSum = spinSum;
     g.spinLever = zero();

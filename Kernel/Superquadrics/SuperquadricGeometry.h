@@ -112,6 +112,7 @@ public:
 private:
     static Vector<Pack> zero() { return {Pack(0), Pack(0), Pack(0)}; }
     void takeLast(const ContactTask& task, std::size_t block);
+    void takeHeldMasses(const ContactTask& task, std::size_t block);
     [[nodiscard]] Pack reachOf(const ContactTask& task, std::size_t block) const;
     void setRadius(const Pack& gauss, const Pack& around);
 
@@ -130,6 +131,7 @@ private:
     Vector<Pack> spinSum = zero(), spinDifference = zero();  // rad/s
     Pack inverseMass = 1, response = 1;                      // 1/kg
     Pack turningResponse = 0;                                // 1/(kg m^2)
+    Pack massIfHeld = 0;                                     // kg, of contacts of bodies that are held
     std::atomic<std::uint64_t>* fallbackCount = nullptr;
 };
 

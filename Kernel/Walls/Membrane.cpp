@@ -99,6 +99,9 @@ void Membrane::hold(const std::function<bool(const Vec3D&)>& where, const Vec3D&
         heldAsRim[v] = false;
         now.velocity[v] = moves;
     }
+    if (pendular::isSet(began)) return;
+    heldAtSetUp.assign(held.begin(), held.end());
+    velocityAtSetUp = now.velocity;
 }
 
 void Membrane::holdRim(const Vec3D& velocity) {
@@ -113,6 +116,7 @@ void Membrane::holdRim(const Vec3D& velocity) {
 void Membrane::setPressure(double value) {
     checkValue("Membrane", "pressure", value, "Pa", anyFinite);
     pressure = value;
+    if (!pendular::isSet(began)) pressureAtSetUp = value;
 }
 
 void Membrane::setDamping(double rate) {
@@ -226,6 +230,9 @@ void Membrane::visitState(StateArchive& archive) {
     archive.same("thickness", material.thickness, "m");
     archive.same("density", material.density, "kg/m^3");
     archive.same("damping", damping, "1/s");
+    archive.same("firstPressure", pressureAtSetUp, "Pa");
+    archive.same<std::uint8_t>("firstHeld", std::span<const std::uint8_t>(heldAtSetUp));
+    archive.same<double>("firstVelocities", std::span<const Vector<double>>(velocityAtSetUp), "m/s");
     archive.finite("pressure", pressure);
     archive.value("forcesAreOld", forcesAreOld);
     const auto whole = [&](std::string_view name, const auto& column) {

@@ -166,6 +166,9 @@ private:
     double unlooked = 0;   // m, that vertices may have come nearer to each other since findCrossing()
     double began = unset;  // s, of the run; not a number before it
     bool forcesAreOld = true;
+    std::vector<std::uint8_t> heldAtSetUp;  // by hold(); empty: none
+    MembraneState::Column velocityAtSetUp;  // m/s, of these
+    double pressureAtSetUp = 0;             // Pa
 };
 
 }  // namespace pendular

@@ -112,6 +112,7 @@ void RigidWall::setVelocity(const Vec3D& value) {
     const Vector<double> linear = checkedVector("Wall", "velocity", value, "m/s");
     beginSteadyMotion();
     steady.linear = linear;
+    noteSetUp();
     placeAt(began);
 }
 
@@ -121,6 +122,7 @@ void RigidWall::setAngularVelocity(const Vec3D& spin, const Vec3D& point) {
     beginSteadyMotion();
     steady.spin = turning;
     steady.point = through;
+    noteSetUp();
     placeAt(began);
 }
 
@@ -131,6 +133,7 @@ void RigidWall::setMotion(std::function<Eigen::Isometry3d(double)> poseOfTime) {
     bodily.reset();
     followsFunction = true;
     steady = {};
+    noteSetUp();
     atRest = false;
     const double time = isInRun() ? now : 0;
     origin = isInRun() ? displacementAt(time).inverse().after(pose) : Pose();
@@ -165,6 +168,20 @@ void RigidWall::takeBack(const Pose& before, const Vector<double>& linear) {
 
 void RigidWall::setSurfaceVelocity(const Vec3D& value) {
     surfaceVelocity = checkedVector("Wall", "surface velocity", value, "m/s");
+    if (!isInRun()) surfaceVelocityAtSetUp = surfaceVelocity;
+}
+
+/// The motion that a scene which goes on must set as well. The run may give the wall another one later.
+void RigidWall::noteSetUp() {
+    if (!isInRun()) steadyAtSetUp = steady;
+}
+
+void RigidWall::compareMotionAtSetUp(StateArchive& archive) const {
+    archive.sameRecord<double>("firstVelocity", steadyAtSetUp.linear, "m/s");
+    archive.sameRecord<double>("firstAngularVelocity", steadyAtSetUp.spin, "rad/s");
+    if (norm(steadyAtSetUp.spin) > 0)
+        archive.sameRecord<double>("firstPointOfTurning", steadyAtSetUp.point, "m");
+    archive.sameRecord<double>("firstSurfaceVelocity", surfaceVelocityAtSetUp, "m/s");
 }
 
 Vec3D RigidWall::getVelocityAt(const Vec3D& point) const {
@@ -230,6 +247,7 @@ void RigidWall::visitState(StateArchive& archive) {
         "hasMotionFunction", static_cast<bool>(motion), {},
         "a scene that goes on gives a wall its function by setMotion() when it is set up, also where "
         "the wall got it during the run, and gives none to a wall that had none");
+    compareMotionAtSetUp(archive);
     archive.value("followsFunction", followsFunction);
     archive.require(motion || !followsFunction, "followsFunction", "is 1, and there is no function");
     archive.value("atRest", atRest);

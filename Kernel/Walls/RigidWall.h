@@ -127,6 +127,8 @@ private:
     [[nodiscard]] RigidVelocity askedVelocity(double time) const;
     void requireSameMotion(const StateArchive& archive) const;
     void beginSteadyMotion();
+    void noteSetUp();
+    void compareMotionAtSetUp(StateArchive& archive) const;
     double placeAt(double time);
     void listOwn(const Vector<double>& centre, double reach, std::vector<std::uint32_t>& parts) const final;
     void findOwn(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
@@ -150,6 +152,8 @@ private:
     Vector<double> surfaceVelocity{0, 0, 0};  // m/s, in the body's frame
     Pose pose;
     RigidVelocity velocity;
+    RigidVelocity steadyAtSetUp;
+    Vector<double> surfaceVelocityAtSetUp{0, 0, 0};
 };
 
 /// A unit vector along the given one. Throws InputError unless it is finite and not zero.

@@ -165,8 +165,13 @@ std::vector<Triangle> readByContent(InputFile& file, const std::string& ending, 
 
 }  // namespace
 
-std::vector<Triangle> readTriangles(const std::filesystem::path& path, double scale) {
+double checkedMeshScale(double scale) {
     checkValue("TriangleWall", "scale", scale, "m", positive);
+    return scale;
+}
+
+std::vector<Triangle> readTriangles(const std::filesystem::path& path, double scale) {
+    checkedMeshScale(scale);
     InputFile file = loadInputFile("triangle file", path);
     std::vector<Triangle> triangles = readByContent(file, path.extension().string(), scale);
     if (triangles.empty()) file.refuse("holds no triangles");

@@ -18,4 +18,7 @@ using Triangle = std::array<Vector<double>, 3>;  // m
 /// @param scale m for one unit of the file (1e-3 for a file in mm)
 std::vector<Triangle> readTriangles(const std::filesystem::path& path, double scale = 1);
 
+/// m for one unit of a mesh, as it is. Throws InputError unless it is positive and finite.
+double checkedMeshScale(double scale);
+
 }  // namespace pendular

@@ -6,6 +6,7 @@
 
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/PlaneDrive.h"
+#include "Kernel/Walls/RigidWall.h"
 #include "Kernel/Walls/WallBody.h"
 
 namespace pendular {
@@ -26,9 +27,9 @@ bool Wall::getDistanceAndNormal(const SphericalParticle& grain, double& distance
 }
 
 void Wall::keepForces(bool keep, const Vec3D& about) {
+    const Vector<double> point = checkedVector("Wall", "point of the torque", about, "m");
     forcesKept = keep;
     // A wall that is moved by its force keeps it.
-    const Vector<double> point = toVector(about);
     if (isMovedByForces()) kept = {kept.force, kept.torque + cross(kept.about - point, kept.force), point};
     else kept = {.about = point};
 }

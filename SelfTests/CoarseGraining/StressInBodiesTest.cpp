@@ -46,7 +46,7 @@ double asymmetryOf(const Eigen::Matrix3d& m) { return (m - m.transpose()).cwiseA
 /// a = ([dw/dt] + [w]^2) r from its centre: J ([dw/dt] + [w]^2)^T, where J, of rho r r, is half the trace of
 /// the inertia times 1, less the inertia. dw/dt is that of Euler's equations.
 Eigen::Matrix3d turningOf(const BodyReference& body) {
-    const Eigen::Matrix3d axes = body.getOrientation().toRotationMatrix();
+    const Eigen::Matrix3d axes = body.getPrincipalAxes().toRotationMatrix();
     const Eigen::Matrix3d inertia = axes * Eigen::Vector3d(body.getInertia()).asDiagonal() * axes.transpose();
     const Eigen::Matrix3d j = 0.5 * inertia.trace() * Eigen::Matrix3d::Identity() - inertia;
     const Vec3D spin = body.getAngularVelocity();

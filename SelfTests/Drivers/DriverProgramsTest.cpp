@@ -20,6 +20,7 @@ namespace pendular::driverProgramsTest {
 namespace {
 
 using driverRuns::drivers;
+using driverRuns::everyDriver;
 using driverRuns::headerOf;
 using driverRuns::rowsOf;
 using support::contentOf;
@@ -31,16 +32,6 @@ using support::TestFolder;
 const std::string drum = drivers + "/RotatingDrum/RotatingDrum ";
 const std::string bed = drivers + "/Penetration/Penetration ";
 const std::string hopper = drivers + "/HopperDischarge/HopperDischarge ";
-
-/// The folders under Drivers/ with a program of their own name.
-std::vector<std::string> everyDriver() {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folders::source / "Drivers")) {
-        const std::string name = entry.path().filename().string();
-        if (std::filesystem::exists(entry.path() / (name + ".cpp"))) names.push_back(name);
-    }
-    return names;
-}
 
 TEST(Drivers, explainTheirOptions) {
     EXPECT_GE(everyDriver().size(), 7u);
@@ -66,42 +57,13 @@ TEST(Drivers, explainTheirOptions) {
 
 /// Each with options that make its run short.
 TEST(Drivers, printNothingWhereTheyAreQuietAndGoOnAtTheirEnd) {
-    const std::map<std::string, std::string> shorter{
-        {"DryingBed", "--number 100 --begin-s 0.002 --end-time-s 0.004"},
-        {"EllipsoidPacking", "--number 30 --width 4 --aspects 1 1.4 --friction 0.5"},
-        {"FluidisedColumn", "--cells 2 --stage-s 0.002"},
-        {"HopperDischarge",
-         "--number 120 --hopper-diameter-m 0.016 --orifice-m 0.01 --orifice-m 0.012 --begin-s 0.02 "
-         "--end-time-s 0.06"},
-        {"LiquidInShear", "--width-m 0.02 --end-time-s 0.01 --interval-s 0.005"},
-        {"ObliqueImpact", "--angles-deg 10 --angles-deg 60"},
-        {"MixedHopper",
-         "--number 50 --hopper-diameter-m 0.016 --shares 1 0 0 0 --orifice-m 0.012 0.015 "
-         "--elastic-modulus-Pa 1e6 --begin-s 0.06 --end-time-s 0.12"},
-        {"Penetration", "--number 120 --softening 100 --end-time-s 0.001"},
-        {"RodPacking", "--number 30 --width 3.5 --aspects 1 1.4"},
-        {"ShatteringPlate", "--plate-radius-m 0.008 --end-time-s 0.0003"},
-        {"RotatingDrum", "--number 120 --softening 1000 --end-time-s 0.001"},
-        {"ShearCell", "--number 108 --stiffness 1e4 --strain 0.2 --interval-strain 0.1"},
-        {"SiloFilling", "--mass-kg 0.002 --fill-time-s 0.02 --end-time-s 0.04 --average-s 0.01"},
-        {"ShearedSuspension", "--number 60 --strain 0.1 --begin-strain 0.05 --interval-strain 0.05"},
-        {"SplitBottom", "--cylinder-m 0.008 --disc-m 0.004 --layers 3 --begin-s 0.01 --end-time-s 0.03"},
-        {"SprayCoating", "--length-m 0.008 --begin-s 0.01 --end-time-s 0.03 --interval-s 0.01"},
-        {"WetPlaneShear", "--strain 0.2"},
-        {"TriaxialTest",
-         "--number 64 --stiffness 1e3 --inertial-number 0.05 --strain 0.1 --interval-strain 0.05"},
-        {"TriaxialSleeve", "--number 100 --inertial-number 0.03 --strain 0.05 --interval-strain 0.01"},
-        {"WetWallCollision", "--speeds-m/s 1"},
-        {"WornDrum", "--end-time-s 0.02"},
-        {"WornPlates", "--number 1"}};
     for (const std::string& name : everyDriver()) {
         const TestFolder folder;
-        const auto options = shorter.find(name);
         // A driver runs beside its program, and without --output: the folder has another name than the
         // program.
         std::filesystem::create_symlink(std::filesystem::path(drivers) / name / name, folder.path() / name);
-        const std::string command = "cd " + folder.path().string() + " && ./" + name + " --quiet " +
-                                    (options == shorter.end() ? "" : options->second);
+        const std::string command =
+            "cd " + folder.path().string() + " && ./" + name + " --quiet " + driverRuns::shortOptionsOf(name);
         const auto result = run(command);
         EXPECT_EQ(result.exitCode, 0) << name;
         EXPECT_EQ(result.output, "") << name;
@@ -111,6 +73,24 @@ TEST(Drivers, printNothingWhereTheyAreQuietAndGoOnAtTheirEnd) {
         EXPECT_EQ(again.exitCode, 0) << name;
         EXPECT_EQ(again.output, "") << name;
     }
+}
+
+/// A run is not resumed with another fluid, nor with other speeds.
+TEST(FluidisedColumn, isResumedWithTheFluidThatItBeganWith) {
+    if (!Hdf5File::isAvailable()) GTEST_SKIP() << "no HDF5 library";
+    const TestFolder folder;
+    const std::string column =
+        drivers + "/FluidisedColumn/FluidisedColumn --cells 2 --stage-s 0.002 " + folder.option();
+    ASSERT_EQ(run(column).exitCode, 0);
+    for (const auto& [option, sentence] :
+         {std::pair{" --model-b", "parts/fluid/model is A in the file and B in the scene"},
+          {" --law Ergun", "parts/fluid/law is Gidaspow in the file and Ergun in the scene"},
+          {" --largest 4", "superficialSpeed is "}}) {
+        const auto again = run(column + " --resume" + option);
+        EXPECT_NE(again.exitCode, 0) << option;
+        EXPECT_NE(again.output.find(sentence), std::string::npos) << again.output;
+    }
+    EXPECT_EQ(run(column + " --resume").exitCode, 0);
 }
 
 /// Before anything is computed: the grains of this drum would take days to settle.
@@ -384,7 +364,8 @@ TEST(HopperDischarge, writesCurvesAndFlows) {
     ASSERT_EQ(result.exitCode, 0) << result.output;
     EXPECT_NE(result.output.find("Beverloo's law: C = "), std::string::npos);
     EXPECT_EQ(headerOf(folder.path() / "discharge.csv"), "orifice_m,time_s,mass_kg");
-    EXPECT_EQ(headerOf(folder.path() / "flow.csv"), "orifice_m,flow_kg/s,change_of_flow,beverloo_kg/s");
+    EXPECT_EQ(headerOf(folder.path() / "flow.csv"),
+              "orifice_m,flow_kg/s,change_of_flow,beverloo_kg/s,flow_error_kg/s,head_at_end");
     std::map<double, double> mass;
     for (const auto& row : rowsOf(folder.path() / "discharge.csv")) {
         EXPECT_GE(row[2], mass[row[0]]) << "mass never comes back";

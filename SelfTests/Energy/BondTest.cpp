@@ -368,6 +368,7 @@ TEST(Bond, waitingBondsAndMaterialsAreInTheFile) {
 /// Throws in a step of its choice, after the forces.
 struct Failing : StepPart {
     [[nodiscard]] std::string_view name() const override { return "failing"; }
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}  // it has no settings
     void afterForces(StepContext& step) override {
         if (step.number == at) throw RunError("As was asked for.");
     }

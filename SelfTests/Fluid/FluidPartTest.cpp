@@ -31,6 +31,9 @@ S glass() {
 /// drag.
 struct Swirl : FluidHost {
     double rate = 3, rise = 0.05;  // 1/s, m/s
+    void compareSetUp(StateArchive& archive, double /*now*/) override {
+        archive.same("rate", rate, "1/s"), archive.same("rise", rise, "m/s");
+    }
     void findVelocity(const FluidGrid& grid, FluidFields& fields, double /*time*/) override {
         for (std::size_t k = 0; k < grid.size(); ++k) {
             const double x = static_cast<double>(k % 3) - 1, y = static_cast<double>(k / 3 % 3) - 1;
@@ -50,6 +53,7 @@ struct Still : Swirl {
 
 /// The same of any grid.
 struct Rest : FluidHost {
+    void compareSetUp(StateArchive&, double) override {}
     void findVelocity(const FluidGrid&, FluidFields& fields, double) override {
         fields.velocity.assign(fields.porosity.size(), {0, 0, 0});
     }

@@ -83,7 +83,7 @@ TEST_F(FoundFaultsOfRestart, aRandomGeneratorOfOtherWordsIsRefused) {
                          "generator is not the state of one"));
 }
 
-/// A table that promises 2^50 rows took the memory for them.
+/// A table that promises 2^50 rows took the memory for them. HDF5 1.10 opens it, and 1.14 does not.
 TEST_F(FoundFaultsOfRestart, aTableLargerThanTheFileIsRefused) {
     std::vector<double> curve(12345);
     const auto visit = [&](StateArchive& archive) { archive.column<double>("curve", curve); };
@@ -102,7 +102,9 @@ TEST_F(FoundFaultsOfRestart, aTableLargerThanTheFileIsRefused) {
     sealRestartFile(path);
     const std::string text = refusal([&] { readRestartFile(path, visit); });
     EXPECT_TRUE(isOneSentence(text));
-    EXPECT_TRUE(contains(text, "has fewer bytes than curve is to have numbers"));
+    EXPECT_TRUE(contains(text, "has fewer bytes than curve is to have numbers") ||
+                contains(text, "has no table or text at curve that can be read"))
+        << text;
 }
 
 }  // namespace

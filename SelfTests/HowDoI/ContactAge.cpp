@@ -8,10 +8,11 @@ struct ContactAge : FirstDriver {
     double longest = 0;  // s
 
     void actionsAfterTimeStep() override {
-        for (const ObservedContact& contact : interactions()) {
+        for (const ObservedContact& contact : ownInteractions()) {
             age[contact] += getTimeStep();
             longest = std::max(longest, age[contact]);
         }
+        longest = largestOfRanks(longest);  // with mpirun
     }
 };
 // [end]

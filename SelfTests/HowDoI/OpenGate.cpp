@@ -12,7 +12,9 @@ struct OpenGate : FirstDriver {
         wallHandler.copyAndAddObject(gate);
     }
     void actionsBeforeTimeStep() override {
-        if (getNumberOfTimeSteps() == 500) wallHandler.removeObject(1);  // 0 is the floor
+        if (getNumberOfTimeSteps() != 500) return;
+        gather();                     // with mpirun, before walls are changed
+        wallHandler.removeObject(1);  // 0 is the floor
     }
 };
 // [end]

@@ -14,13 +14,16 @@ struct StillAir : StepPart {
         return {&bodies, 1};
     }
     void prepare(StepContext& step) override {
-        for (GrainReference grain : step.particles) {
+        for (GrainReference grain : step.particles.ownGrains()) {
             if (grain.isFixed()) continue;
             const double rate = 6 * M_PI * viscosity * grain.getRadius() / grain.getMass();
             const Vec3D before = grain.getVelocity();
             grain.setVelocity(std::exp(-rate * step.length) * before);
             taken += 0.5 * grain.getMass() * (before.squaredNorm() - grain.getVelocity().squaredNorm());
         }
+    }
+    void compareSetUp(StateArchive& archive, StepContext&) override {
+        archive.same("viscosity", viscosity, "Pa s");  // a run is resumed with the same air
     }
     void visitState(StateArchive& archive, StepContext&) override { archive.finite("taken", taken); }
     void addTo(SummaryRows& rows) const override { rows.addNumber("energy taken by the air", taken, "J"); }

@@ -9,7 +9,7 @@ struct OwnValues : FirstDriver {
     GrainColumnReference film = particleHandler.addColumn("film_volume", "m3", 1e-12);
 
     void actionsAfterTimeStep() override {
-        for (GrainReference grain : particleHandler)
+        for (GrainReference grain : particleHandler.ownGrains())
             film[grain.getId()] -= 5e-11 * getTimeStep();  // it dries
     }
 };

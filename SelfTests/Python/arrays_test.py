@@ -166,7 +166,13 @@ def test_events():
     assert begun.sum() == counts["touches_begun"] > 0
     assert (np.diff(events["time_s"]) >= 0).all()
     assert events["wall"][begun][0] == 0 and events["particle1"][begun][0] == 0  # the lowest one meets the floor
+    assert ((events["particle2"] == -1) == (events["wall"] >= 0)).all()
+    between = events["particle2"] >= 0
+    assert between.any() and (events["particle2"][between] < len(scene)).all() and (events["wall"][between] == -1).all()
     assert len(scene.take_events()["kind"]) == 0
+    for k in range(len(scene)):
+        seen = scene.contacts_of(k)
+        assert ((seen["particle2"] == -1) == (seen["wall"] >= 0)).all() and (seen["particle2"] < len(scene)).all()
 
 
 def test_fields_have_the_mass_of_the_grains():

@@ -87,6 +87,19 @@ def test_a_wall_warms():
     heat = scene.heat()
     assert 300 < scene.temperature[0] < 400
     assert heat["from_walls_J"] == pytest.approx(800 * scene.mass[0] * (scene.temperature[0] - 300), rel=1e-10)
+    assert heat["from_each_wall_J"] == {0: pytest.approx(heat["from_walls_J"], rel=1e-12)}
+
+
+def test_softening_is_for_hertzs_contact_radius():
+    """The overlap of a linear spring says nothing of the spot of real grains."""
+    scene = pendular.Scene()
+    stone = scene.add_species("LinearViscoelastic", density=2500, stiffness=1000)
+    scene.add_grains(stone, [[0, 0, 0], [1.99e-3, 0, 0]], 1e-3)
+    scene.conduct_heat(300, softening=0.01)
+    scene.set_heat_material(stone, conductivity=1, heat_capacity=800)
+    scene.time_step = 1e-8
+    with pytest.raises(pendular.InputError, match="softening = 0.01 .* LinearViscoelasticSpecies"):
+        scene.run(steps=1)
 
 
 def test_two_dimensions():
@@ -148,6 +161,36 @@ def test_the_softest_modulus():
     scene.softest_modulus(["friction"], young_modulus=6e10, pressure=1000)
     with pytest.raises(pendular.InputError, match="solid-fraction"):
         scene.softest_modulus(["warmth"], young_modulus=6e10)
+
+
+def rolling_tower(modulus, factor=1.0):
+    """Grains with stiff springs of rolling and torsion, which limit the time step; a factor for their stiffness."""
+    scene = pendular.Scene()
+    sand = scene.add_species("HertzianViscoelasticMindlinRollingTorsion", density=2500, young_modulus=modulus, poisson_ratio=0.25,
+                             restitution_coefficient=0.3, sliding_friction_coefficient=0.5, rolling_friction_coefficient=0.1,
+                             torsion_friction_coefficient=0.1, rolling_stiffness=1e6 * factor, torsion_stiffness=1e6 * factor,
+                             rolling_dissipation=factor**0.5, torsion_dissipation=factor**0.5)
+    scene.add_plane(sand, (0, 0, -1), (0, 0, 0))
+    scene.add_grains(sand, [[0, 0, 1.2e-3], [0, 0, 3.3e-3], [0, 0, 5.4e-3]], 1e-3)
+    scene.gravity = (0, 0, -9.81)
+    return scene
+
+
+def test_the_gain_of_softness_is_that_of_the_scene():
+    """As choose_time_step() has it: with springs of rolling that stay, the modulus alone gains nothing."""
+    scene = rolling_tower(1e9)
+    before = scene.choose_time_step()
+    advice = scene.softest_modulus(["friction"], young_modulus=1e9, pressure=100)
+    softer = advice["young_modulus_Pa"]
+    assert softer < 1e8 and advice["step_s"] == before == scene.choose_time_step()
+    assert advice["step_by_moduli_s"] == pytest.approx(rolling_tower(softer).choose_time_step()) == pytest.approx(before)
+    assert advice["softer_step_s"] == pytest.approx(rolling_tower(softer, (softer / 1e9) ** (2 / 3)).choose_time_step())
+    decades = 2 * np.log10(advice["softer_step_s"] / before)
+    assert (advice["least_gain"], advice["most_gain"]) == pytest.approx((2.2**decades, 3.1**decades))
+    factors = {name: factor for of, name, factor in advice["scale"] if of == (0, 0)}
+    assert factors["effective_shear_modulus"] == pytest.approx(softer / 1e9)
+    assert factors["rolling_stiffness"] == factors["torsion_stiffness"] == pytest.approx((softer / 1e9) ** (2 / 3))
+    assert "rolling_stiffness x" in advice["text"]
 
 
 def test_contacts_sinter():

@@ -86,17 +86,35 @@ def test_numbers_of_processes():
     assert done.stdout == "2\n" and Path("rank-0").exists() and Path("rank-1").exists(), done.stderr
 
 
+def test_a_part_of_the_grains_is_not_taken_for_all():
+    """A function that the kernel calls in the middle of a step finds the grains of its process only."""
+    done = start(SET_UP + """
+lid = scene.add_plane(glass, (0, 0, 1), (0, 0, 0.1))
+lid.set_motion(lambda time: (0, 0, 0.1 - scene.position[:, 2].max() * time))
+scene.run(steps=30)
+print("went on")
+""", 2)
+    assert done.returncode != 0 and "went on" not in done.stdout
+    assert "each process of a scene on several (mpirun) has its own ones only" in done.stderr, done.stderr
+
+
 def test_grains_that_stay_on_their_ranks():
     """Frames in parts have all of them, and so has the hash of all."""
     done = start(SET_UP + """
 scene.write_paraview(1e-4, parts=True)
 scene.leave_grains_on_ranks()
 scene.run(steps=30)
-own = len(scene)
+own = len(scene.position)
+try:
+    scene.hash()
+    print("a part of the grains looks like all of them")
+except pendular.InputError:
+    pass
 scene.finish()
-print(own)
+print(own, len(scene))
 """, 2)
     assert done.returncode == 0, done.stderr
-    assert 0 < int(done.stdout) < 400
+    own, of_all = done.stdout.split()
+    assert 0 < int(own) < 400 and int(of_all) == 400
     pieces = sorted(Path().glob("run-particles-*-rank*.vtp"))
     assert pieces and len(pieces) == 2 * len(list(Path().glob("run-particles-*.pvtp")))

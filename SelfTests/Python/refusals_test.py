@@ -16,6 +16,10 @@ def other_scene():
     return scene, glass_in(scene)
 
 
+def spray(scene, **options):
+    scene.add_spray(flow=1e-8, droplet_radius=1e-4, speed=1, nozzle=(0, 0, 0), direction=(0, 0, 1), cone_angle=1, **options)
+
+
 # What is done, and words of the sentence.
 MISUSES = {
     # Species
@@ -26,6 +30,11 @@ MISUSES = {
     "text as a field": (lambda s: s.glass.set(density="heavy"), "density must be a number"),
     "negative density": (lambda s: s.glass.set(density=-1), "density"),
     "NaN as a field": (lambda s: s.glass.set(sliding_friction_coefficient=nan), "sliding_friction_coefficient"),
+    "a ratio that no material has": (
+        lambda s: s.add_species("HertzianViscoelasticMindlin", density=2500, young_modulus=5e6, poisson_ratio=0.6), r"poisson_ratio = 0\.6 is out of range; .* at most 0\.5"),
+    "a ratio of almost 1": (lambda s: s.glass.set(young_modulus=5e6, poisson_ratio=0.99), r"poisson_ratio = 0\.99"),
+    "a ratio of -1": (lambda s: s.glass.set(young_modulus=5e6, poisson_ratio=-1), "poisson_ratio = -1"),
+    "a modulus below 0": (lambda s: s.glass.set(young_modulus=-5e6, poisson_ratio=0.3), "young_modulus = -5"),
     "modulus without ratio": (lambda s: s.glass.set(young_modulus=1e6), "together"),
     "modulus of a linear law": (
         lambda s: s.add_species("LinearViscoelastic", young_modulus=1e6, poisson_ratio=0.3), "names are stiffness|names are restitution"),
@@ -79,6 +88,12 @@ MISUSES = {
     "vector of two": (lambda s: s.add_plane(s.glass, (0, 1), (0, 0, 0)), "three numbers"),
     "normal of no length": (lambda s: s.add_plane(s.glass, (0, 0, 0), (0, 0, 0)), "normal"),
     "no mesh": (lambda s: s.add_mesh(s.glass, "none.stl"), "none.stl"),
+    "triangles of no size": (lambda s: s.add_mesh(s.glass, [[[0, 0, 9], [1, 0, 9], [0, 1, 9]]], scale=-1), "scale = -1 m"),
+    "vertices of no size": (
+        lambda s: s.add_host_wall(s.glass, [[0, 0, 9], [1, 0, 9], [0, 1, 9]], [[0, 1, 2]], scale=0), "scale = 0 m"),
+    "a torque about nothing": (lambda s: s.wall(0).keep_forces(about=(nan, 0, 0)), "point of the torque"),
+    "a hardness that is not asked for": (
+        lambda s: s.add_mesh(s.glass, [[[0, 0, 9], [1, 0, 9], [0, 1, 9]]]).keep_wear("reye", factor=1e-12, hardness=1e9), "takes no hardness"),
     "triangles in a row": (lambda s: s.add_mesh(s.glass, np.zeros((4, 9))), "N x 3"),
     "piston of a tube": (lambda s: s.add_cylinder(s.glass, (0, 0, 1), (0, 0, 0), 1).set_piston(1, 1), "no piston"),
     "force that is not kept": (lambda s: s.wall(0).force, "keep"),
@@ -111,6 +126,11 @@ MISUSES = {
     "no file of frames": (lambda s: list(pendular.frames("none.h5")), "none.h5"),
     "no table": (lambda s: pendular.table("none.csv"), "none.csv"),
     "draw a column that is none": (lambda s: pendular.draw(s, color="heat"), "heat"),
+    "spray of less than even droplets": (lambda s: spray(s, volume_spread=-0.1), "volume spread = -0.1"),
+    "spray before all time": (lambda s: spray(s, start=-1), "first time = -1 s"),
+    "spray of a light liquid": (lambda s: spray(s, liquid_density=-1000), "density of the liquid = -1000"),
+    "cone with an edge": (lambda s: spray(s, edge1=(1, 0, 0)), "cone_angle"),
+    "a flux of vapour": (lambda s: s.set_evaporation(flux=1e-3, humidity=0.5), "humidity"),
     "spray without a shape": (
         lambda s: s.add_spray(flow=1, droplet_radius=1, speed=1, nozzle=(0, 0, 0), direction=(0, 0, 1)), "cone_angle"),
 }

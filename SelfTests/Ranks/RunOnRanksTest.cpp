@@ -217,7 +217,7 @@ public:
     std::size_t own = 0;
 
 private:
-    void actionsAfterTimeStep() override { own = particleHandler.getSize(); }
+    void actionsAfterTimeStep() override { own = particleHandler.ownGrains().size(); }
 };
 
 /// Where an output comes after each step, before contacts are due to be listed.
@@ -240,7 +240,7 @@ public:
     /// 4 us
     [[nodiscard]] int timeOfStep() {
         int time = 0;
-        for (const GrainReference grain : particleHandler)
+        for (const GrainReference grain : particleHandler.ownGrains())
             time += static_cast<int>(grain.getId()) % perSide < perSide / 2 ? 4 : 1;
         return time;
     }

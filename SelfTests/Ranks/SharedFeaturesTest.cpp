@@ -109,7 +109,8 @@ public:
 private:
     void actionsAfterTimeStep() override {
         if (getNumberOfTimeSteps() % 7 != 0) return;
-        for (GrainReference grain : particleHandler) grain.setVelocity(0.999 * grain.getVelocity());
+        for (GrainReference grain : particleHandler.ownGrains())
+            grain.setVelocity(0.999 * grain.getVelocity());
     }
 };
 

@@ -167,7 +167,7 @@ private:
 
     void actionsAfterTimeStep() override {
         if (getNumberOfTimeSteps() % 32 != 1) return;
-        for (GrainReference grain : particleHandler) {
+        for (GrainReference grain : particleHandler.ownGrains()) {
             support::Random random(getNumberOfTimeSteps() + 1000003 * grain.getId());
             grain.setVelocity(random.inCube(0.5));
         }
@@ -188,7 +188,7 @@ void expectNoneLost(int edge, double leastRuptures) {
                 scene.step();
                 ASSERT_EQ(scene.liquidLedger().unaccounted(), 0) << "step " << scene.getNumberOfTimeSteps();
             }
-            ruptures = scene.sumOverRanks(static_cast<double>(scene.contactEventCounts().bridgesRuptured));
+            ruptures = static_cast<double>(scene.contactEventCounts().bridgesRuptured);
             ASSERT_LT(scene.getNumberOfTimeSteps(), 100000u) << "there are too few ruptures";
         }
         const LiquidLedger ledger = scene.liquidLedger();

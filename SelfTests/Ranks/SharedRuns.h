@@ -73,7 +73,7 @@ public:
 private:
     void actionsAfterTimeStep() override {
         if (getNumberOfTimeSteps() % 100 != 0) return;
-        for (GrainReference grain : particleHandler)
+        for (GrainReference grain : particleHandler.ownGrains())
             if (grain.getId() % 3 == 0) grain.setVelocity(grain.getVelocity() + Vec3D(0.3, 0, 0.3));
     }
     void writeOutput() override { table.row(getTime(), getTotalMomentum().x()); }
@@ -126,7 +126,7 @@ private:
     /// Every other grain is thrown up, so that bridges rupture.
     void actionsAfterTimeStep() override {
         if (getNumberOfTimeSteps() % 120 != 0) return;
-        for (GrainReference grain : particleHandler)
+        for (GrainReference grain : particleHandler.ownGrains())
             if (grain.getId() % 2 == 0) grain.setVelocity(grain.getVelocity() + Vec3D(0, 0, 1));
     }
     void writeOutput() override {

@@ -56,14 +56,14 @@ inline std::vector<double> toldBy(const Scene& scene) {
     tell(scene.getTotalMomentum());
     tell(scene.getCentreOfMass());
     for (int axis = 0; axis < 3; ++axis) told.push_back(scene.getStrainRate(axis));
-    told.push_back(scene.sumOverRanks(static_cast<double>(scene.particleHandler.getSize())));
-    told.push_back(scene.sumOverRanks(static_cast<double>(scene.contacts().counts().acting)));
+    told.push_back(static_cast<double>(scene.particleHandler.getSize()));
+    told.push_back(static_cast<double>(scene.contacts().counts().acting));
     const ContactSystem& contacts = scene.contacts();
-    told.push_back(scene.largestOfRanks(contacts.overlaps().largestOverlap()));
-    told.push_back(scene.largestOfRanks(contacts.capillaryNumbers().largestNumber()));
+    told.push_back(contacts.overlaps().largestOverlap());
+    told.push_back(contacts.capillaryNumbers().largestNumber());
     for (const std::uint64_t count :
          {contacts.overlaps().countAbove(), contacts.capillaryNumbers().countAbove()})
-        told.push_back(scene.sumOverRanks(static_cast<double>(count)));
+        told.push_back(static_cast<double>(count));
     for (const auto& entry : EnergyLedger::entries()) told.push_back(scene.energyLedger().*entry.member);
     for (std::size_t w = 0; w < scene.wallHandler.getSize(); ++w) {
         if (scene.wallHandler.isRemoved(w)) continue;
@@ -78,8 +78,7 @@ inline std::vector<double> toldBy(const Scene& scene) {
                                  liquid.removed, liquid.evaporated});
         for (std::size_t w = 0; w < scene.wallHandler.getSize(); ++w) told.push_back(scene.liquidOfWall(w));
     }
-    for (const std::uint64_t count : eventCounts(scene))
-        told.push_back(scene.sumOverRanks(static_cast<double>(count)));
+    for (const std::uint64_t count : eventCounts(scene)) told.push_back(static_cast<double>(count));
     for (std::size_t k = 0; k < scene.inletHandler.getSize(); ++k) {
         const InletCount& come = scene.inletHandler.countOf(k);
         told.insert(told.end(), {static_cast<double>(come.number), come.mass, come.lost});

@@ -135,7 +135,7 @@ public:
 private:
     void actionsAfterTimeStep() override {
         if (getNumberOfTimeSteps() % 2000 != 0) return;
-        for (GrainReference grain : particleHandler) {
+        for (GrainReference grain : particleHandler.ownGrains()) {
             const auto id = static_cast<int>(grain.getId());
             grain.setVelocity(0.5 * Vec3D(id % 3 - 1, id / 3 % 3 - 1, id / 9 % 3 - 1));
         }
@@ -298,6 +298,7 @@ std::string refusalOnRanks(SetUp&& setUp) {
 
 struct NoPart : StepPart {
     [[nodiscard]] std::string_view name() const override { return "no part"; }
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}  // it has no settings
 };
 
 TEST(SharedScene, refusesWhatRanksCannotShareYet) {

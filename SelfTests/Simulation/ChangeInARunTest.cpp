@@ -260,9 +260,13 @@ TEST(WallInARun, hasItsNewSpeciesFromTheNextStepOn) {
     for (const auto& s : {scene.get(), same.get()}) s->run(2);
     change(*scene);
     for (const auto& s : {scene.get(), same.get()}) s->step();
-    const auto force = [](Hooked<Smooth>& s) { return s.particleHandler.getObject(0).getForce().z(); };
+    // Of the overlap, which is another one after the step: the new force acts in both halves of it.
+    const auto stiffnessOf = [](Hooked<Smooth>& s) {
+        const ObservedContact seen = s.interactions().at(0);
+        return seen.normalForce / seen.overlap();
+    };
     // The harmonic mean of k and 3 k.
-    EXPECT_NEAR(force(*scene) / force(*same), 1.5, 1e-12);
+    EXPECT_NEAR(stiffnessOf(*scene) / stiffnessOf(*same), 1.5, 1e-12);
     auto stiff = make(stiffness);
     stiff->speciesHandler.getMixedObject(0, 1)->setStiffness(1e12);  // no grain or wall of this pair yet
     EXPECT_TRUE(contains(endOf<Smooth>(*stiff, change), "is above the stability limit"));

@@ -6,6 +6,7 @@
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Simulation/OverlapEstimate.h"
 #include "Kernel/Species/Friction/Mindlin.h"
+#include "Kernel/Species/Friction/MindlinRollingTorsion.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
@@ -43,6 +44,27 @@ TEST(OverlapEstimate, isHertzsOfACollision) {
         EXPECT_NEAR(found.step, scene.stabilityLimit() * std::pow(0.05 * radius / depth, 0.25),
                     1e-3 * found.step);
     }
+}
+
+// Springs of rolling do not change with the overlap: where they bound the step, it is the limit itself.
+TEST(OverlapEstimate, leavesTheStepToSpringsOfRolling) {
+    using Rolling = Species<HertzianViscoelastic, MindlinRollingTorsion>;
+    Rolling species;
+    species.setDensity(density);
+    species.setEffectiveElasticModulus(modulus);
+    species.setEffectiveShearModulus(0.3 * modulus);
+    species.setDissipation(0.1);
+    species.setSlidingFrictionCoefficient(0.5);
+    species.setRollingStiffness(1e6), species.setTorsionStiffness(1e6);
+    species.setRollingDissipation(1), species.setTorsionDissipation(1);
+    species.setRollingFrictionCoefficient(0.1), species.setTorsionFrictionCoefficient(0.1);
+    std::vector<scenes::GrainMotion> grains;
+    for (int k = 0; k < 4; ++k) grains.push_back({.radius = radius, .position = {0.01 * k, 0, 0}});
+    grains[0].velocity = {0.01, 0, 0};
+    scenes::FewGrains<Rolling> scene(species, grains, 1e-8);
+    const OverlapEstimate found = estimateOverlaps(scene);
+    EXPECT_LT(found.bySpeed, 0.01);
+    EXPECT_NEAR(found.step, found.limit, 1e-3 * found.limit);
 }
 
 // The lowest contact of a column bears all of it, 3.6 / pi = 1.15 times the mean contact of a bed of the same

@@ -7,6 +7,8 @@
 #include <tuple>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Simulation/ChosenTimeStep.h"
+#include "Kernel/Species/Friction/MindlinRollingTorsion.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
@@ -136,6 +138,106 @@ TEST(SoftestModulus, readsTheScene) {
                 1e-9);
     EXPECT_NEAR(question.speed, std::sqrt(2 * 9.81 * 2 * r),
                 1e-12);  // the height of the box around the grains
+}
+
+using Rolling = Species<HertzianViscoelastic, MindlinRollingTorsion>;
+
+/// Three grains in a row that fall on each other, with springs of rolling and torsion of this stiffness
+/// (N/m).
+struct RollingScene : scenes::FewGrains<Rolling> {
+    RollingScene(double modulus, double rollingStiffness)
+        : FewGrains(material(modulus, rollingStiffness),
+                    {{.radius = 1e-3, .position = {0, 0, 0}},
+                     {.radius = 1e-3, .position = {0, 0, 3e-3}},
+                     {.radius = 1e-3, .position = {0, 0, 6e-3}}},
+                    1e-7) {
+        setGravity({0, 0, -9.81});
+    }
+    static Rolling material(double modulus, double rollingStiffness) {
+        Rolling s;
+        s.setDensity(2500);
+        s.setElasticModulusAndPoissonRatio(modulus, 0.25);
+        s.setEffectiveShearModulus(computeEffectiveShearModulus(modulus, 0.25));
+        s.setRestitutionCoefficient(0.5);
+        s.setSlidingFrictionCoefficient(0.5);
+        s.setRollingStiffness(rollingStiffness), s.setTorsionStiffness(rollingStiffness);
+        const double dashpot = 1e-3 * std::sqrt(rollingStiffness);  // kg/s; of 1e6 N/m it rules, too
+        s.setRollingDissipation(dashpot), s.setTorsionDissipation(dashpot);
+        s.setRollingFrictionCoefficient(0.1), s.setTorsionFrictionCoefficient(0.1);
+        return s;
+    }
+};
+SoftnessQuestion frictionOf(Scene& scene, double modulus) {
+    SoftnessQuestion question = softnessOf(scene, 100);
+    question.modulus = modulus, question.figures = {Friction};
+    return question;
+}
+
+// The steps that it tells are those of scenes with these values. With stiff springs of rolling the modulus
+// alone gains nothing.
+TEST(SoftestModulus, tellsTheStepsThatTheSceneHas) {
+    constexpr double modulus = 1e9;
+    for (const double rolling : {1e6, 1e3, 1e-2}) {
+        RollingScene scene(modulus, rolling);
+        const SoftnessAdvice advice = softestModulus(scene, frictionOf(scene, modulus));
+        ASSERT_TRUE(advice.step.has_value());
+        const double factor = advice.modulus / modulus;
+        ASSERT_LT(factor, 0.1);
+        const double before = chosenTimeStep(scene);
+        EXPECT_EQ(advice.step->before, before);
+        RollingScene moduli(advice.modulus, rolling);
+        EXPECT_NEAR(advice.step->byModuli, chosenTimeStep(moduli), 1e-9 * before);
+        RollingScene all(advice.modulus, rolling * std::pow(factor, 2.0 / 3));
+        EXPECT_NEAR(advice.step->after, chosenTimeStep(all), 1e-9 * before);
+        const double decades = 2 * std::log10(advice.step->after / before);
+        EXPECT_NEAR(advice.leastGain, std::pow(2.2, decades), 1e-9);
+        EXPECT_EQ(chosenTimeStep(scene), before);  // the scene is as it was
+        if (rolling == 1e6) {
+            EXPECT_EQ(advice.step->byModuli, before);
+            EXPECT_TRUE(contains(advice.text(), "other springs limit it then"));
+        }
+    }
+}
+
+// Each stiffness is named, of each species that a contact can have, those of walls and of pairs too.
+TEST(SoftestModulus, namesAllThatIsToBeScaled) {
+    RollingScene scene(1e9, 1e3);
+    Rolling other = RollingScene::material(2e11, 1e3);
+    const Rolling* const steel = scene.speciesHandler.copyAndAddObject(other);
+    scene.speciesHandler.getMixedObject(scene.speciesHandler.getObject(0), steel)->setRollingStiffness(500);
+    InfiniteWall wall;
+    wall.setSpecies(steel);
+    wall.set({0, 0, -1}, {0, 0, -2e-3});
+    scene.wallHandler.copyAndAddObject(wall);
+    const SoftnessAdvice advice = softestModulus(scene, frictionOf(scene, 1e9));
+    const double factor = advice.modulus / 1e9;
+    const auto factorOf = [&](int first, int second, std::string_view field) {
+        for (const ScaledField& scaled : advice.step->fields)
+            if (scaled.first == first && scaled.second == second && scaled.field == field)
+                return scaled.factor;
+        return 0.0;
+    };
+    for (const int species : {0, 1}) {
+        EXPECT_NEAR(factorOf(species, species, "effectiveElasticModulus"), factor, 1e-12);
+        EXPECT_NEAR(factorOf(species, species, "effectiveShearModulus"), factor, 1e-12);
+        for (const char* field : {"rollingStiffness", "torsionStiffness"})
+            EXPECT_NEAR(factorOf(species, species, field), std::pow(factor, 2.0 / 3), 1e-12);
+        for (const char* field : {"rollingDissipation", "torsionDissipation"})
+            EXPECT_NEAR(factorOf(species, species, field), std::pow(factor, 1.0 / 3), 1e-12);
+        EXPECT_EQ(factorOf(species, species, "slidingFrictionCoefficient"), 0);
+    }
+    EXPECT_NEAR(factorOf(0, 1, "rollingStiffness"), std::pow(factor, 2.0 / 3), 1e-12);
+    EXPECT_TRUE(contains(advice.text(), "species 1: ")) << advice.text();
+    EXPECT_TRUE(contains(advice.text(), "pair of species 0 and 1: rollingStiffness")) << advice.text();
+}
+
+// A scene that is softer than the material already: steps are told for the material's modulus, and factors
+// for the values that it has now.
+TEST(SoftestModulus, comparesWithTheMaterialWhereTheSceneIsSofter) {
+    RollingScene soft(1e6, 1e-2), hard(1e9, 1e-2 * std::pow(1e3, 2.0 / 3));
+    const SoftnessAdvice advice = softestModulus(soft, frictionOf(soft, 1e9));
+    EXPECT_NEAR(advice.step->before, chosenTimeStep(hard), 1e-9 * advice.step->before);
+    EXPECT_NEAR(advice.step->fields.front().factor, advice.modulus / 1e6, 1e-9 * advice.modulus / 1e6);
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ struct Diary : StepPart {
         : title(std::move(itsName)), pages(book), failsIn(std::move(failure)), failsAt(failsAfter) {}
 
     [[nodiscard]] std::string_view name() const override { return title; }
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}  // it has no settings
     void note(const StepContext& step, const std::string& phase) {
         pages.push_back(title + ' ' + phase);
         if (phase == failsIn && step.number == failsAt && step.length > 0) throw InputError("a fault.");
@@ -136,6 +137,7 @@ TEST(StepList, refusesTwoPartsOfOneName) {
 /// Pushes all grains with an acceleration that swings, and counts its steps.
 struct Shaker : StepPart {
     [[nodiscard]] std::string_view name() const override { return "shaker"; }
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}  // it has no settings
     [[nodiscard]] std::span<const Conflict> ownConflicts() const override {
         static constexpr Conflict walls{Feature::OwnPart, Feature::Walls, "the shaker has no floor",
                                         "leave the walls out"};

@@ -88,25 +88,37 @@ std::uint32_t join(PythonScene& scene, const ArrayLike& identities, std::optiona
         .getId();
 }
 
+double volumeOf(const AnyShape& shape) {
+    if (const auto* const spheres = std::get_if<ClumpTemplate>(&shape.of)) return spheres->getVolume();
+    if (const auto* const grain = std::get_if<SuperquadricGrain>(&shape.of))
+        return grain->getShape().volume();
+    return std::get<BlockGrain>(shape.of).getBox().mass().volume;
+}
+
 /// Columns of all bodies, in the order of their numbers.
 py::dict bodies(PythonScene& scene) {
+    scene.requireRows("bodies()");
     Scene& of = scene.scene();
     std::map<std::uint32_t, bool> numbers;
-    for (const GrainReference grain : of.particleHandler)
+    for (const GrainReference grain : of.particleHandler.ownGrains())
         if (const auto body = of.bodyHandler.bodyOf(grain.getId())) numbers[*body] = true;
     const auto rows = static_cast<py::ssize_t>(numbers.size());
     std::vector<std::int64_t> ids;
     std::vector<double> masses, volumes;
     std::vector<Vector<double>> position, velocity, spin, force, torque;
-    std::vector<double> orientation;
+    std::vector<double> orientation, principal;
+    const auto append = [](std::vector<double>& rows, const Eigen::Quaterniond& q) {
+        rows.insert(rows.end(), {q.w(), q.x(), q.y(), q.z()});
+    };
+    std::vector<Vector<double>> inertia;
     for (const auto& [number, unused] : numbers) {
         const BodyReference body = of.bodyHandler.getObject(number);
         ids.push_back(number), masses.push_back(body.getMass()), volumes.push_back(body.getVolume());
         position.push_back(toVector(body.getPosition())), velocity.push_back(toVector(body.getVelocity()));
         spin.push_back(toVector(body.getAngularVelocity())), force.push_back(toVector(body.getForce()));
         torque.push_back(toVector(body.getTorque()));
-        const Eigen::Quaterniond q = body.getOrientation();
-        orientation.insert(orientation.end(), {q.w(), q.x(), q.y(), q.z()});
+        append(orientation, body.getOrientation()), append(principal, body.getPrincipalAxes());
+        inertia.push_back(toVector(body.getInertia()));
     }
     py::dict made;
     made["body"] = arrayOf(std::move(ids));
@@ -116,6 +128,8 @@ py::dict bodies(PythonScene& scene) {
     made["spin_rad_per_s"] = arrayOf(std::move(spin));
     made["force_N"] = arrayOf(std::move(force)), made["torque_Nm"] = arrayOf(std::move(torque));
     made["orientation"] = arrayOf(std::move(orientation), {rows, 4});
+    made["principal_axes"] = arrayOf(std::move(principal), {rows, 4});
+    made["inertia_kg_m2"] = arrayOf(std::move(inertia));
     return made;
 }
 
@@ -125,10 +139,13 @@ void bindBodies(py::module_& module, SceneClass& scene) {
     py::class_<AnyShape> shape(module, "Shape",
                                "What grains are that are no spheres: a clump, a superquadric, a block.");
     refuseCopies(shape, anew);
-    shape.def("__repr__", [](const AnyShape& s) {
-        return fmt::format("<pendular.Shape: {}>",
-                           std::array{"clump", "superquadric", "block"}[s.of.index()]);
-    });
+    shape
+        .def_property_readonly("volume", &volumeOf,
+                               "m^3, of the shape as it is given; that of a body is scale^3 times it.")
+        .def("__repr__", [](const AnyShape& s) {
+            return fmt::format("<pendular.Shape: {}>",
+                               std::array{"clump", "superquadric", "block"}[s.of.index()]);
+        });
     module.def("clump", &clump, py::arg("spheres"), py::kw_only(), py::arg("mass") = py::none(),
                py::arg("centre") = Vec3D(0, 0, 0), py::arg("inertia") = py::none(),
                comment("ClumpTemplate",
@@ -162,7 +179,11 @@ void bindBodies(py::module_& module, SceneClass& scene) {
                      "identities: of the grains. mass: kg, centre: m, of mass, in space, as the grains are "
                      "now, and inertia: 3 x 3, kg m^2, about it. Returns the number of the body."))
         .def("bodies", &bodies,
-             "Columns of all rigid bodies, in the order of their numbers: mass_kg, position_m, ...")
+             "Columns of all rigid bodies, in the order of their numbers: body (the number), mass_kg, "
+             "volume_m3; position_m, velocity_m_per_s, spin_rad_per_s, force_N and torque_Nm, along the axes "
+             "of space, of and about the centre of mass; orientation, a quaternion w, x, y, z that turns the "
+             "shape into space, as add_shape() takes it (of joined grains: from how they were then); "
+             "principal_axes, one that turns the principal axes into space, and inertia_kg_m2 about these.")
         .def(
             "body_of",
             [](PythonScene& s, std::uint32_t grain) { return s.scene().bodyHandler.bodyOf(grain); },

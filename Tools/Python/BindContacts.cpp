@@ -10,16 +10,23 @@ namespace pendular::python {
 namespace {
 
 py::dict contacts(const PythonScene& scene) {
+    scene.requireRows("contacts()");
     std::vector<PolyDataField> fields;
     {
         const PythonScene::WithoutPython others(scene);
         const Scene& of = scene.scene();
+        of.warnOfUnlistedContacts();
         fields = contactFields(of.contacts(), of.particleHandler.store(), of.laws(), true,
                                of.getNumberOfThreads());
     }
     py::dict made;
     for (PolyDataField& field : fields) made[py::str(field.name)] = arrayOf(std::move(field));
     return made;
+}
+
+/// As arrays have it: -1 at a wall.
+std::int64_t partnerOf(std::uint32_t particle2, std::uint32_t none) {
+    return particle2 == none ? std::int64_t{-1} : std::int64_t{particle2};
 }
 
 /// The contacts of one grain, which are a few: without a look at all others.
@@ -32,9 +39,8 @@ py::dict contactsOf(const PythonScene& scene, std::size_t identity) {
     };
     py::dict made;
     made["particle1"] = column([](const ObservedContact& c) { return std::int64_t{c.particle1}; });
-    made["particle2"] = column([](const ObservedContact& c) {
-        return c.wall < 0 ? static_cast<std::int64_t>(c.particle2) : std::int64_t{-1};
-    });
+    made["particle2"] =
+        column([](const ObservedContact& c) { return partnerOf(c.particle2, ObservedContact::none); });
     made["wall"] = column([](const ObservedContact& c) { return static_cast<std::int64_t>(c.wall); });
     made["force_N"] = column([](const ObservedContact& c) { return c.force; });
     made["normal_force_N"] = column([](const ObservedContact& c) { return c.normalForce; });
@@ -60,7 +66,7 @@ py::dict takeEvents(PythonScene& scene) {
     for (std::size_t k = 0; k < count; ++k) {
         const auto& [when, event] = scene.events[k];
         time[k] = when, first[k] = event.particle1;
-        second[k] = event.particle2 == ContactEvent::none ? -1 : event.particle2;
+        second[k] = partnerOf(event.particle2, ContactEvent::none);
         wall[k] = event.wall, kind[k] = static_cast<std::int64_t>(event.kind);
     }
     scene.events.clear();
@@ -83,7 +89,8 @@ ContactColumnReference& columnNamed(PythonScene& scene, const std::string& name)
 
 void setColumn(PythonScene& scene, const std::string& name, const ArrayLike& values) {
     ContactColumnReference& column = columnNamed(scene, name);
-    const std::vector<ObservedContact> seen = scene.scene().interactions();
+    scene.requireRows("set_contact_column()");
+    const std::vector<ObservedContact> seen = scene.scene().ownInteractions();
     const PerGrain rows(values, name, 1, static_cast<py::ssize_t>(seen.size()));
     for (std::size_t k = 0; k < seen.size(); ++k) column[seen[k]] = rows.number(static_cast<py::ssize_t>(k));
 }
@@ -113,7 +120,7 @@ void bindContacts(SceneClass& scene) {
             "event_counts",
             [](const PythonScene& s) {
                 requireListening(s);
-                const ContactEventCounts& counts = s.scene().contactEventCounts();
+                const ContactEventCounts counts = s.scene().contactEventCounts();
                 py::dict made;
                 made["touches_begun"] = counts.touchesBegun, made["touches_ended"] = counts.touchesEnded;
                 made["bridges_formed"] = counts.bridgesFormed,

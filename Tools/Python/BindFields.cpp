@@ -119,7 +119,8 @@ void bindFields(SceneClass& scene) {
              "kernel (gauss, lucy, heaviside). contacts: stress of contacts, too. by='species': also of "
              "each. Returns x_m, y_m, z_m of the points, and the fields by the names that they have in the "
              "files of write_fields(): an axis for each coordinate, then vectors and tensors. Stress is "
-             "positive in compression.")
+             "positive in compression; coordination counts touches with grains and walls, fabric those "
+             "with grains alone.")
         .def("mean_stress", &meanStressOf, py::arg("volume") = py::none(),
              comment("MeanStress",
                      "volume: m^3; that of the periodic box where it is not given. Returns total_Pa, "

@@ -6,6 +6,7 @@
 #include "Kernel/Fluid/FluidPart.h"
 #include "Kernel/Species/LawNames.h"
 #include "Tools/Python/Bindings.h"
+#include "Tools/Python/PartSettings.h"
 
 namespace pendular::python {
 
@@ -41,7 +42,8 @@ struct FluidHandle : Handle {
 /// A fluid that an object of Python computes.
 class PythonFluid : public FluidHost {
 public:
-    PythonFluid(PythonScene& of, py::object given) : scene(of) {
+    PythonFluid(PythonScene& of, const py::object& given)
+        : scene(of), settings(given, "add_fluid(): the host") {
         for (const char* const name : {"find_velocity", "find_pressure", "take"}) {
             if (!py::hasattr(given, name)) {
                 if (std::string_view(name) == "take") continue;  // it may do without
@@ -64,6 +66,7 @@ public:
     void take(const FluidGrid& /*grid*/, const FluidFields& /*fields*/, double length) override {
         if (functions.contains("take")) scene.ask([&] { (*functions.at("take"))(handle(), length); });
     }
+    void compareSetUp(StateArchive& archive, double /*now*/) override { settings.compare(archive); }
     FluidPart* part = nullptr;
 
 private:
@@ -99,6 +102,7 @@ private:
     }
 
     PythonScene& scene;
+    PartSettings settings;
     std::map<std::string, std::shared_ptr<py::function>> functions;
 };
 

@@ -14,6 +14,7 @@ namespace {
 /// @param write puts those of the grain at a place to a pointer
 template <class Number, std::size_t width, class Write>
 py::array copyOf(const PythonScene& scene, Write&& write) {
+    scene.requireRows("an array of all grains");
     const ParticleStore& grains = scene.scene().particleHandler.store();
     std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(grains.count())};
     if constexpr (width > 1) shape.push_back(static_cast<py::ssize_t>(width));
@@ -98,8 +99,10 @@ void setAll(PythonScene& scene, const ArrayLike& rows, std::string_view name, py
     ParticleHandler& grains = scene.scene().particleHandler;
     std::vector<std::uint32_t> identities;
     if (which) identities = identitiesOf(*which, "identities");
-    else
-        for (const GrainReference grain : grains) identities.push_back(grain.getId());
+    else {
+        scene.requireRows(name);
+        for (const GrainReference grain : grains.ownGrains()) identities.push_back(grain.getId());
+    }
     const PerGrain values(rows, name, width, static_cast<py::ssize_t>(identities.size()));
     std::vector<decltype(get(grains.getObject(0)))> before;
     for (const std::uint32_t identity : identities) before.push_back(get(grains.getObject(identity)));
@@ -157,6 +160,7 @@ void setFilms(PythonScene& scene, const ArrayLike& rows, const Which& which) {
 py::array viewOf(const std::shared_ptr<PythonScene>& scene, const std::string& what) {
     scene->requireThisThread(),
         scene->requireMayChange();  // pybind11 asks the scene itself only where it is given by reference
+    scene->requireRows("view()");
     ParticleStore& grains = scene->scene().particleHandler.store();
     using Kept = std::shared_ptr<PythonScene>;
     const auto look = [&]<class Number>(Number* first, py::ssize_t width, std::size_t bytes) {
@@ -182,6 +186,7 @@ py::array viewOf(const std::shared_ptr<PythonScene>& scene, const std::string& w
 }
 
 py::dict fieldsOfGrains(const PythonScene& scene, bool stress) {
+    scene.requireRows("grains()");
     FrameContent content;
     content.doubles = true, content.contacts = false, content.stress = stress;
     SceneFrame frame;
@@ -207,6 +212,7 @@ GrainColumn& columnNamed(ParticleStore& grains, const std::string& name) {
 }
 
 void setColumn(PythonScene& scene, const std::string& name, const ArrayLike& rows) {
+    scene.requireRows("set_column()");
     ParticleStore& grains = scene.scene().particleHandler.store();
     GrainColumn& column = columnNamed(grains, name);
     const PerGrain values(rows, name, 1, static_cast<py::ssize_t>(grains.count()));
@@ -284,6 +290,7 @@ void bindGrainArrays(SceneClass& scene) {
         .def(
             "hash",
             [](const PythonScene& s) {
+                s.requireAllRows("hash()");
                 return fmt::format("{:016x}", stateHash(s.scene().particleHandler.store()));
             },
             comment("stateHash"));

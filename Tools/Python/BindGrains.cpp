@@ -111,6 +111,7 @@ void bindGrains(SceneClass& scene) {
         .def(
             "write_grains",
             [](PythonScene& s, const std::filesystem::path& file) {
+                s.requireAllRows("write_grains()");
                 std::vector<GrainRow> rows;
                 for (const GrainReference grain : s.scene().particleHandler)
                     rows.push_back({grain.getRadius(), grain.getPosition()});

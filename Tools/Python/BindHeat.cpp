@@ -35,9 +35,12 @@ int numberOf(const PythonScene& scene, const WallHandle& wall) {
 }
 
 py::dict ledger(const PythonScene& scene) {
-    const HeatLedger& heat = heatOf(scene).ledger();
-    py::dict made;
+    const HeatPart& part = heatOf(scene);
+    const HeatLedger& heat = part.ledger();
+    py::dict made, ofWalls;
+    for (const int wall : part.wallsOfHeat()) ofWalls[py::int_(wall)] = part.fromWall(wall);
     made["stored_J"] = heat.stored, made["from_walls_J"] = heat.fromWalls;
+    made["from_each_wall_J"] = ofWalls;
     made["from_contacts_J"] = heat.fromContacts, made["to_walls_J"] = heat.toWalls;
     made["from_driver_J"] = heat.fromDriver;
     return made;
@@ -47,14 +50,16 @@ py::dict ledger(const PythonScene& scene) {
 
 void bindHeat(SceneClass& scene) {
     scene
-        .def("conduct_heat", &conduct, py::arg("temperature") = 293.0, py::kw_only(),
-             py::arg("law") = "constriction", py::arg("softening") = 1.0,
-             "Gives the grains a temperature (K), which is their column `temperature`: heat is conducted "
-             "where they touch, at set-up of the scene.\n\n"
-             "law: 'constriction', 2 k a with the contact radius a of Hertz, or 'area_over_distance', as "
-             "MercuryDPM's Thermal species. softening: for grains that are softer than their material, the "
-             "ratio of the moduli of simulated and real grains, up to 1. Every material of the scene needs "
-             "set_heat_material(). Raises InputError.")
+        .def(
+            "conduct_heat", &conduct, py::arg("temperature") = 293.0, py::kw_only(),
+            py::arg("law") = "constriction", py::arg("softening") = 1.0,
+            "Gives the grains a temperature (K), which is their column `temperature`: heat is conducted "
+            "where they touch, at set-up of the scene.\n\n"
+            "law: 'constriction', 2 k a with the contact radius a of the contact laws (Hertz's, or that of a "
+            "sintered or JKR's neck), or 'area_over_distance', as MercuryDPM's Thermal species. softening: "
+            "for grains that are softer than their material, the ratio of the moduli of simulated and real "
+            "grains, up to 1; only with Hertz's or JKR's contact radius. Every material of the scene needs "
+            "set_heat_material(). Raises InputError.")
         .def(
             "set_heat_material",
             [](PythonScene& s, const SpeciesHandle& species, double conductivity, double heatCapacity) {
@@ -80,7 +85,8 @@ void bindHeat(SceneClass& scene) {
             "heat_by_contacts", [](PythonScene& s, bool heats) { heatOf(s).heatByContacts(heats); },
             py::arg("heats") = true, comment("HeatPart::heatByContacts", "heats: or no more."))
         .def("heat", &ledger,
-             "The heat of the scene, J: stored_J, of all grains; from_walls_J, of held temperatures; "
+             "The heat of the scene, J: stored_J, of all grains; from_walls_J, of held temperatures, the sum "
+             "of from_each_wall_J, a dict by the numbers of the walls, positive into the grains; "
              "from_contacts_J, what contacts have lost, as far as it went into grains; to_walls_J, what of "
              "it went into walls; from_driver_J. What is stored is the sum of what came from all three.")
         .def_property_readonly(

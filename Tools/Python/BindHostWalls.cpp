@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "Kernel/Walls/HostWall.h"
+#include "Kernel/Walls/TriangleReader.h"
 #include "Tools/Python/Bindings.h"
 #include "Tools/Python/WallHandle.h"
 
@@ -31,7 +32,7 @@ std::vector<HostWall::Corners> cornersOf(const ArrayLike& given) {
 
 WallHandle addHostWall(PythonScene& scene, const SpeciesHandle& species, const py::object& mesh,
                        const std::optional<ArrayLike>& triangles, const Given<double>& unit) {
-    const double scale = valueOf(unit, "add_host_wall(): scale", "a number");
+    const double scale = checkedMeshScale(valueOf(unit, "add_host_wall(): scale", "a number"));
     HostWall wall;
     if (triangles) {
         std::vector<Vec3D> vertices = vectorsOf({mesh}, "vertices");

@@ -14,7 +14,9 @@ std::size_t addSpray(PythonScene& scene, double flow, double dropletRadius, doub
                      const std::optional<Vec3D>& edge2, double volumeSpread, double start, double end,
                      double liquidDensity, double longestFlight, std::uint64_t seed) {
     const bool isRain = edge1 && edge2, isFan = fanAngle && across;
-    if (isRain + isFan + coneAngle.has_value() != 1)
+    const bool isIncomplete =
+        edge1.has_value() != edge2.has_value() || fanAngle.has_value() != across.has_value();
+    if (isRain + isFan + coneAngle.has_value() != 1 || isIncomplete)
         throw InputError(
             "add_spray() takes cone_angle (rad), or fan_angle (rad) and across, or edge1 and edge2 (m) of a "
             "rain.");
@@ -23,9 +25,10 @@ std::size_t addSpray(PythonScene& scene, double flow, double dropletRadius, doub
     else if (isFan) spray.setFlatFan(nozzle, direction, *across, *fanAngle);
     else spray.setCone(nozzle, direction, *coneAngle);
     spray.setFlow(flow), spray.setDropletRadius(dropletRadius), spray.setSpeed(speed);
-    if (volumeSpread > 0) spray.setVolumeSpread(volumeSpread);
-    if (start > 0 || end < infinity) spray.setTimes(start, end);
-    if (liquidDensity > 0) spray.setMomentum(liquidDensity);
+    // All but the defaults, so that what is out of range is refused there.
+    if (volumeSpread != 0) spray.setVolumeSpread(volumeSpread);
+    if (start != 0 || end != infinity) spray.setTimes(start, end);
+    if (liquidDensity != 0) spray.setMomentum(liquidDensity);
     spray.setLongestFlight(longestFlight), spray.setSeed(seed);
     return scene.scene().sprayHandler.copyAndAddObject(spray);
 }
@@ -38,6 +41,10 @@ void setEvaporation(PythonScene& scene, std::optional<double> flux, std::optiona
     Evaporation law;
     if (flux.has_value() == massTransfer.has_value())
         throw InputError("set_evaporation() takes one of flux (m/s) and mass_transfer (m/s).");
+    if (flux && (saturatedVapour || humidity != 0))
+        throw InputError(
+            "set_evaporation(): saturated_vapour and humidity are of mass_transfer, and flux does not need "
+            "them; leave them out.");
     if (flux) law.setFlux(*flux);
     else
         law.setMassTransfer(*massTransfer, saturatedVapour.value_or(unset), liquidDensity.value_or(unset),

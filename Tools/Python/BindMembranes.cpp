@@ -1,3 +1,8 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
 #include "Kernel/Species/LawNames.h"
 #include "Kernel/Walls/Membrane.h"
 #include "Kernel/Walls/TriangleWall.h"
@@ -75,11 +80,33 @@ WearLaw wearLaw(const std::string& law, const py::kwargs& given) {
     unknownName("law of wear", law, {"none", "reye", "archard", "finnie"});
 }
 
+/// Throws InputError for a value that the law does not take, which would be lost.
+void refuseOthers(const std::string& law, const py::kwargs& given) {
+    const std::map<std::string, std::vector<std::string_view>> taken{
+        {"none", {}},
+        {"reye", {"factor"}},
+        {"archard", {"coefficient", "hardness"}},
+        {"finnie", {"cutting_share", "flow_stress"}}};
+    const auto known = taken.find(law);
+    if (known == taken.end()) return;  // wearLaw() has refused it
+    for (const auto& [key, value] : given) {
+        const std::string name = py::str(key);
+        if (std::ranges::count(known->second, name) == 0)
+            throw InputError(fmt::format("keep_wear('{}') takes no {}.", law, name));
+    }
+}
+
 void keepWear(const WallHandle& wall, const std::string& law, std::optional<double> interval,
               double acceleration, const py::kwargs& values) {
     TriangleWall& mesh = wall.as<TriangleWall>("wear");
-    if (!interval) return mesh.keepWear(wearLaw(law, values));
-    mesh.keepWear(wearLaw(law, values), {.interval = *interval, .acceleration = acceleration});
+    const WearLaw worn = wearLaw(law, values);
+    refuseOthers(law, values);
+    if (!interval && acceleration != 1)
+        throw InputError(
+            "keep_wear(): acceleration is of vertices that move by the wear; give the interval (s) between "
+            "their moves too.");
+    if (!interval) return mesh.keepWear(worn);
+    mesh.keepWear(worn, {.interval = *interval, .acceleration = acceleration});
 }
 
 py::dict wear(const WallHandle& wall) {

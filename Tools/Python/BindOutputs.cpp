@@ -37,9 +37,9 @@ public:
 
 private:
     std::vector<double> ofAll() {
-        return scene.ask([&] {
+        return scene.askForOwnRows([&] {
             const Doubles made = Doubles::ensure((*make)(scene.object()));
-            const auto count = static_cast<py::ssize_t>(scene.scene().particleHandler.getSize());
+            const auto count = static_cast<py::ssize_t>(scene.scene().particleHandler.store().count());
             if (!made || made.ndim() != (width == 1 ? 1 : 2) || made.size() != count * width) {
                 PyErr_Clear();
                 throw InputError(

@@ -3,6 +3,7 @@
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Step/SummaryRows.h"
 #include "Tools/Python/Bindings.h"
+#include "Tools/Python/PartSettings.h"
 
 namespace pendular::python {
 
@@ -14,8 +15,8 @@ constexpr std::array phases{"check", "prepare", "summary"};
 /// A part of the step whose phases are functions of an object of Python, which the scene keeps.
 class PythonPart final : public StepPart {
 public:
-    PythonPart(PythonScene& of, std::size_t place, std::string name, bool hasPrepare)
-        : scene(of), at(place), called(std::move(name)), prepares(hasPrepare) {}
+    PythonPart(PythonScene& of, std::size_t place, std::string name, bool hasPrepare, PartSettings given)
+        : scene(of), at(place), called(std::move(name)), prepares(hasPrepare), settings(std::move(given)) {}
 
     [[nodiscard]] std::string_view name() const override { return called; }
     [[nodiscard]] bool needsFinishedStep() const override { return prepares; }
@@ -28,6 +29,7 @@ public:
         if (prepares && step.length > 0)
             scene.askForVelocities([&] { object().attr("prepare")(scene.object(), step.length); });
     }
+    void compareSetUp(StateArchive& archive, StepContext& /*step*/) override { settings.compare(archive); }
     void visitState(StateArchive& archive, StepContext& /*step*/) override {
         scene.ask([&] {
             if (py::hasattr(object(), "remembered") && !py::isinstance<py::dict>(object().attr("remembered")))
@@ -62,6 +64,7 @@ private:
     std::size_t at;  // in the scene's list
     std::string called;
     bool prepares;
+    PartSettings settings;
 };
 
 void addPart(PythonScene& scene, const py::object& part) {
@@ -74,10 +77,11 @@ void addPart(PythonScene& scene, const py::object& part) {
         if (py::hasattr(part, phase) && PyCallable_Check(part.attr(phase).ptr()) == 0)
             throw InputError(fmt::format("add_part(): {} of part '{}' must be a function.", phase,
                                          std::string(py::str(name))));
+    PartSettings settings(part, fmt::format("add_part(): part '{}'", std::string(py::str(name))));
     scene.parts.push_back(part);
     try {
         scene.scene().addPart<PythonPart>(scene, scene.parts.size() - 1, name.cast<std::string>(),
-                                          py::hasattr(part, "prepare"));
+                                          py::hasattr(part, "prepare"), std::move(settings));
     } catch (...) {
         scene.parts.pop_back();
         throw;
@@ -100,7 +104,9 @@ void bindParts(SceneClass& scene) {
         "prepare(scene, length) comes before each step of this length (s) and may change velocity and spin "
         "of grains (which the energy ledger books as given by the driver), and nothing else; summary() "
         "returns numbers by name, with their units, for the summary of the run; remembered is a dict of "
-        "numbers and arrays that are kept in restart files. Raises InputError.");
+        "numbers and arrays that are kept in restart files; settings is a dict of numbers, arrays and texts, "
+        "without which the numbers, arrays and texts among the attributes of the object count: a run that is "
+        "resumed with others than it began with is refused. Raises InputError.");
 }
 
 }  // namespace pendular::python

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "Kernel/Parts/AdaptiveStep.h"
+#include "Kernel/Simulation/ChosenTimeStep.h"
 #include "Kernel/Simulation/OverlapEstimate.h"
 #include "Kernel/Species/LawNames.h"
 #include "Tools/Python/Bindings.h"
@@ -18,17 +19,16 @@ const Integrator& integratorNamed(const std::string& name) {
     unknownName("integrator", name, {names.begin(), names.end()});
 }
 
-/// The smaller of the stability limit and a share of the shortest contact.
+HeldContacts heldContacts(const std::string& which) {
+    if (which == "where_asked") return HeldContacts::WhereAsked;
+    if (which == "all") return HeldContacts::All;
+    if (which == "none") return HeldContacts::None;
+    unknownName("setting of held contacts", which, {"where_asked", "all", "none"});
+}
+
 double chooseTimeStep(PythonScene& scene, double stepsInContact) {
-    checkValue("choose_time_step", "steps_in_contact", stepsInContact, "", positive);
-    Scene& of = scene.scene();
-    const double step = std::min(of.stabilityLimit(), of.shortestContactTime() / stepsInContact);
-    if (!(step < infinity))
-        throw InputError(
-            "choose_time_step() finds no contact that could be: it comes after grains are there, or inlets "
-            "that add them.");
-    of.setTimeStep(step);
-    return of.getTimeStep();
+    scene.scene().setTimeStep(chosenTimeStep(scene.scene(), stepsInContact));
+    return scene.scene().getTimeStep();
 }
 
 void bindTime(SceneClass& scene) {
@@ -82,6 +82,11 @@ void bindTime(SceneClass& scene) {
         .def(
             "accept_overlaps", [](PythonScene& s, double share) { s.scene().acceptOverlaps(share); },
             py::arg("share"), comment("Scene::acceptOverlaps"))
+        .def(
+            "set_held_contacts",
+            [](PythonScene& s, const std::string& which) { s.scene().setHeldContacts(heldContacts(which)); },
+            py::arg("which"),
+            comment("Scene::setHeldContacts", "which: \"where_asked\", \"all\" or \"none\"."))
         .def(
             "set_adaptive_time_step",
             [](PythonScene& s, double share, std::optional<double> largest) {
@@ -178,9 +183,8 @@ void bindRun(SceneClass& scene) {
             "Numbers and arrays by name that are kept in restart files: what functions of the driver "
             "remember from step to step. Give all of them, with their types and shapes, before the run; rows "
             "of one dimension may have grown in the file.")
-        .def(
-            "leave_grains_on_ranks", [](PythonScene& s, bool leave) { s.scene().leaveGrainsOnRanks(leave); },
-            py::arg("leave") = true, comment("Run::leaveGrainsOnRanks", "leave: or no more."))
+        .def("leave_grains_on_ranks", &PythonScene::leaveGrainsOnRanks, py::arg("leave") = true,
+             comment("Run::leaveGrainsOnRanks", "leave: or no more."))
         .def("keep_restart_file", &PythonScene::keepRestartFile, py::arg("interval") = 600.0,
              py::arg("steps") = 0,
              "Keeps NAME-restart.h5: written at the start and the end of the run, at Ctrl-C, whenever the "

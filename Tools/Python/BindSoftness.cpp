@@ -24,15 +24,35 @@ KeptCohesion keptNamed(const std::optional<std::string>& name) {
     unknownName("cohesion that is kept", *name, {"strength", "collisions"});
 }
 
-py::dict answer(const SoftnessQuestion& question) {
-    const SoftnessAdvice advice = softestModulus(question);
+/// With fields as they are called in Python.
+std::string textOf(const SoftnessAdvice& advice) {
+    std::string text = advice.text();
+    if (!advice.step) return text;
+    for (const ScaledField& scaled : advice.step->fields) {
+        const std::string name = snakeCase(scaled.field);
+        if (name == scaled.field) continue;
+        for (std::size_t at = text.find(scaled.field); at != std::string::npos; at = text.find(scaled.field))
+            text.replace(at, scaled.field.size(), name);
+    }
+    return text;
+}
+
+py::dict answer(const SoftnessAdvice& advice) {
     py::list bounds;
     for (const SoftnessBound& bound : advice.bounds)
         bounds.append(py::make_tuple(bound.modulus, bound.reason));
     py::dict made;
     made["young_modulus_Pa"] = advice.modulus, made["bounds"] = bounds;
     made["least_gain"] = advice.leastGain, made["most_gain"] = advice.mostGain;
-    made["adhesion_factor"] = advice.adhesionFactor, made["text"] = advice.text();
+    made["adhesion_factor"] = advice.adhesionFactor, made["text"] = textOf(advice);
+    if (!advice.step) return made;
+    made["step_s"] = advice.step->before, made["step_by_moduli_s"] = advice.step->byModuli;
+    made["softer_step_s"] = advice.step->after;
+    py::list scale;
+    for (const ScaledField& scaled : advice.step->fields)
+        scale.append(py::make_tuple(py::make_tuple(scaled.first, scaled.second), snakeCase(scaled.field),
+                                    scaled.factor));
+    made["scale"] = scale;
     return made;
 }
 
@@ -44,8 +64,8 @@ void bindSoftness(py::module_& module, SceneClass& scene) {
         [](const std::vector<std::string>& figures, double young, double poisson, double density,
            double diameter, double pressure, double speed, double pull,
            const std::optional<std::string>& kept, double error) {
-            return answer({young, poisson, density, diameter, pressure, speed, pull, keptNamed(kept), error,
-                           figuresNamed(figures)});
+            return answer(softestModulus({young, poisson, density, diameter, pressure, speed, pull,
+                                          keptNamed(kept), error, figuresNamed(figures)}));
         },
         py::arg("figures"), py::kw_only(), py::arg("young_modulus"), py::arg("poisson_ratio") = 0.25,
         py::arg("density"), py::arg("diameter"), py::arg("pressure") = 0.0, py::arg("speed") = 0.0,
@@ -64,7 +84,7 @@ void bindSoftness(py::module_& module, SceneClass& scene) {
             question.modulus = young, question.poissonRatio = poisson;
             question.pull = pull, question.kept = keptNamed(kept), question.error = error;
             question.figures = figuresNamed(figures);
-            return answer(question);
+            return answer(softestModulus(s.scene(), question));
         },
         py::arg("figures"), py::kw_only(), py::arg("young_modulus"), py::arg("poisson_ratio") = 0.25,
         py::arg("pressure") = 0.0, py::arg("pull") = 0.0, py::arg("kept") = py::none(),
@@ -74,7 +94,10 @@ void bindSoftness(py::module_& module, SceneClass& scene) {
         "names, as 'solid_fraction' and 'friction'. young_modulus: Pa, and poisson_ratio, of the material. "
         "pressure: Pa, besides. pull: N, the largest attraction of a contact; kept: 'strength' or "
         "'collisions'. error: of the figures. Returns young_modulus_Pa, bounds, least_gain, most_gain, "
-        "adhesion_factor and text.");
+        "adhesion_factor and text, and by choose_time_step() of this scene: step_s with the modulus of the "
+        "material, step_by_moduli_s where moduli alone are scaled, softer_step_s where all of scale are, and "
+        "scale: (two species, equal for one alone; field; factor) of each. The gain is of the last step over "
+        "the first.");
 }
 
 }  // namespace pendular::python

@@ -10,9 +10,8 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Contacts/SpeciesRegistry.h"
-#include "Kernel/Species/Friction/Shared/MindlinSpring.h"
+#include "Kernel/Species/ElasticConstants.h"
 #include "Kernel/Species/LawNames.h"
-#include "Kernel/Species/Normal/Shared/HertzianContact.h"
 #include "Tools/Python/Bindings.h"
 
 namespace pendular::python {
@@ -133,14 +132,10 @@ void planElasticConstants(AnyLaws& laws, Values& values, std::vector<PlannedCall
     if (young == values.end() || poisson == values.end())
         throw InputError("young_modulus and poisson_ratio are given together.");
     if (!laws.has("effectiveElasticModulus")) refuseName(laws, "youngModulus");
-    const bool hasShear = laws.has("effectiveShearModulus");
     std::vector<std::string> fields{"effectiveElasticModulus"};
-    if (hasShear) fields.emplace_back("effectiveShearModulus");
+    if (laws.has("effectiveShearModulus")) fields.emplace_back("effectiveShearModulus");
     plan.push_back({"young_modulus and poisson_ratio", fields,
-                    [&laws, hasShear, e = young->second, nu = poisson->second] {
-                        laws.set("effectiveElasticModulus", computeEffectiveElasticModulus(e, nu));
-                        if (hasShear) laws.set("effectiveShearModulus", computeEffectiveShearModulus(e, nu));
-                    }});
+                    [&laws, e = young->second, nu = poisson->second] { setElasticConstants(laws, e, nu); }});
     values.erase(young), values.erase(poisson);
 }
 

@@ -6,6 +6,7 @@
 #include "Kernel/Walls/AxisymmetricWall.h"
 #include "Kernel/Walls/InfiniteCylinder.h"
 #include "Kernel/Walls/IntersectionOfHalfSpaces.h"
+#include "Kernel/Walls/TriangleReader.h"
 #include "Kernel/Walls/TriangleWall.h"
 #include "Tools/Python/Bindings.h"
 #include "Tools/Python/WallHandle.h"
@@ -27,6 +28,7 @@ std::vector<Triangle> trianglesOf(const py::object& mesh, double scale) {
         throw InputError(
             "A mesh is the name of a file, or an array of triangles: N x 3 corners x 3 numbers.");
     }
+    checkedMeshScale(scale);
     std::vector<Triangle> triangles(static_cast<std::size_t>(corners.shape(0)));
     const double* from = corners.data();
     for (Triangle& triangle : triangles)
@@ -276,7 +278,6 @@ void bindWalls(py::module_& module, SceneClass& scene) {
         .def(
             "keep_forces",
             [](const WallHandle& w, bool keep, const Vec3D& about) {
-                static_cast<void>(checkedVector("Wall", "point of the torque", about, "m"));
                 w.as<Wall>("forces").keepForces(keep, about);
             },
             py::arg("keep") = true, py::arg("about") = Vec3D(0, 0, 0),

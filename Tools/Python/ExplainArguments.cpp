@@ -1,6 +1,9 @@
 #include "Tools/Python/ExplainArguments.h"
 
+#include <fmt/format.h>
+
 #include <string>
+#include <string_view>
 #include <unordered_map>
 
 /// What is said of arguments that no function takes: a sentence of Package/_arguments.py, in the place of the
@@ -34,24 +37,38 @@ PyMethodDef* recordOf(py::handle function) {
 
 py::handle explain;  // of Package/_arguments.py
 
-/// Whether pybind11 has found that the function does not take its arguments, or Numbers.h that a vector is
-/// none; not what a function that it called raised.
-bool isOfArguments(const Known& of, const py::object& text) {
-    const char* const said = text ? PyUnicode_AsUTF8(text.ptr()) : nullptr;
-    if (!said) return false;
-    const std::string_view all(said);
-    if (all.starts_with("A vector must be ")) return true;  // by vectorOf()
-    return all.starts_with(std::string(recordOf(of.function)->ml_name) + "(): incompatible ") &&
-           all.find("The following argument types are supported") != std::string_view::npos;
+std::string textOf(PyObject* object) {
+    const char* const text = object ? PyUnicode_AsUTF8(object) : nullptr;
+    if (!text) PyErr_Clear();
+    return text ? text : "";
 }
 
-/// The sentence; null where there is none.
-PyObject* sentenceFor(const Known& of, const py::object& said, PyObject* arguments, PyObject* named) {
-    const auto doc = py::reinterpret_steal<py::object>(PyObject_GetAttrString(of.function.ptr(), "__doc__"));
+/// The signature of a function as pybind11 quotes it in a message: with that of a constructor,
+/// (self: Scene, name: str) -> None, it writes Scene(name: str).
+/// @param help whose first line is the name and the signature
+std::string quotedSignature(std::string_view help) {
+    const std::size_t begin = help.find('(');
+    if (begin == std::string_view::npos) return {};
+    const std::string_view own = help.substr(begin, help.find('\n') - begin);
+    constexpr std::string_view self = "(self: ";
+    if (!help.starts_with("__init__") || !own.starts_with(self)) return std::string(own);
+    const std::size_t end = own.find_first_of(",)"), arrow = own.rfind(" -> ");
+    const std::size_t rest = own[end] == ',' ? end + 2 : end;
+    return fmt::format("{}({}", own.substr(self.size(), end - self.size()), own.substr(rest, arrow - rest));
+}
+
+/// The sentence; null where the error is not of the arguments. By that pybind11 then quotes the signature:
+/// its words change with its version, and what a function that is called raises has no such part.
+PyObject* sentenceFor(const Known& of, const std::string& said, PyObject* arguments, PyObject* named) {
+    const auto help = py::reinterpret_steal<py::object>(PyObject_GetAttrString(of.function.ptr(), "__doc__"));
+    if (!help) return nullptr;
+    const std::string quoted = quotedSignature(textOf(help.ptr()));
+    const bool isOfVector = said.starts_with("A vector must be ");  // by vectorOf()
+    if (!isOfVector && (quoted.empty() || said.find(quoted) == std::string::npos)) return nullptr;
+    const py::object kept = isOfVector ? py::object(py::str(said)) : py::none();
     const py::object byName = named ? py::reinterpret_borrow<py::object>(named) : py::dict();
-    return PyObject_CallFunction(explain.ptr(), "OsOOOO", said.ptr(), of.name.c_str(),
-                                 doc ? doc.ptr() : Py_None, arguments, byName.ptr(),
-                                 of.attribute ? of.attribute.ptr() : Py_None);
+    return PyObject_CallFunction(explain.ptr(), "OsOOOO", kept.ptr(), of.name.c_str(), help.ptr(), arguments,
+                                 byName.ptr(), of.attribute ? of.attribute.ptr() : Py_None);
 }
 
 PyObject* callAndExplain(PyObject* self, PyObject* arguments, PyObject* named) {
@@ -63,8 +80,8 @@ PyObject* callAndExplain(PyObject* self, PyObject* arguments, PyObject* named) {
     const bool mayBe = PyErr_GivenExceptionMatches(type, PyExc_TypeError) ||
                        PyErr_GivenExceptionMatches(type, PyExc_ValueError);
     const auto said = py::reinterpret_steal<py::object>(mayBe && value ? PyObject_Str(value) : nullptr);
-    if (of != known().end() && isOfArguments(of->second, said))
-        if (PyObject* const sentence = sentenceFor(of->second, said, arguments, named)) {
+    if (of != known().end() && said)
+        if (PyObject* const sentence = sentenceFor(of->second, textOf(said.ptr()), arguments, named)) {
             Py_XDECREF(value);
             value = sentence;
         }
@@ -80,7 +97,7 @@ void explainOne(py::handle function, const Known& of) {
     PyMethodDef* const record = recordOf(function);
     PyObject* const self = PyCFunction_GetSelf(function.ptr());
     const auto ours = reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(&callAndExplain));
-    if (!self || !PyCapsule_CheckExact(self) || record->ml_meth == ours) return;
+    if (!self || record->ml_flags != (METH_VARARGS | METH_KEYWORDS) || record->ml_meth == ours) return;
     calledBefore = reinterpret_cast<FunctionOfC>(reinterpret_cast<void (*)()>(record->ml_meth));
     record->ml_meth = ours;
     known().emplace(self, Known{of.name, of.attribute, function});

@@ -57,6 +57,7 @@ std::string inPython(std::string sentence) {
           {"solve()", "run()"},
           {"finishRun()", "finish()"},
           {"setTimeMax()", "end_time"},
+          {"chosenTimeStep", "choose_time_step"},
           {"setMaterial()", "set_heat_material()"},
           {"addMaterial()", "add_bond_material()"},
           {"Conduction::Constriction", "law='constriction'"},

@@ -158,6 +158,25 @@ void PythonScene::requireMayChange() const {
             "condition of an outlet, may read its scene, but not change it; do that in every_steps().");
 }
 
+void PythonScene::requireAllRows(std::string_view what) const {
+    if (scene().particleHandler.store().isShared)
+        throw InputError(fmt::format(
+            "Simulation: {} needs all grains, and each process of a scene on several (mpirun) has its own "
+            "ones "
+            "only here; take it in every_steps(), every_time() or between two parts of the run, where all of "
+            "them are on each.",
+            what));
+}
+
+void PythonScene::requireRows(std::string_view what) const {
+    if (!leavesGrains && askingForOwnRows == 0) requireAllRows(what);
+}
+
+void PythonScene::leaveGrainsOnRanks(bool leave) {
+    scene().leaveGrainsOnRanks(leave);
+    leavesGrains = leave;
+}
+
 void PythonScene::requireNotRunning() const {
     if (running)
         throw InputError(

@@ -109,6 +109,19 @@ public:
     void requireMayGiveVelocities() const {
         if (givingVelocities == 0) requireMayChange();
     }
+    /// Throws InputError where each rank has its own grains only: in a function that the kernel calls in the
+    /// middle of a step, as for the motion of a wall. Where the script has said leave_grains_on_ranks(), and
+    /// in fields of frames in parts, the rows of the own grains are what is asked for.
+    void requireRows(std::string_view what) const;
+    /// The same, but also where the script has left the grains on their ranks.
+    void requireAllRows(std::string_view what) const;
+    void leaveGrainsOnRanks(bool leave);
+    /// For functions that are asked for rows of the own grains.
+    template <class Questions>
+    auto askForOwnRows(const Questions& questions) {
+        const Counted here(askingForOwnRows);
+        return ask(questions);
+    }
     /// Throws BufferError while an array of view() lives.
     void requireNoViews() const;
     class Busy;
@@ -180,6 +193,8 @@ private:
     mutable std::atomic<std::thread::id> thread{};  // that is at work in the scene, without the interpreter
     int asking = 0;                                 // functions that must not change the scene
     int givingVelocities = 0;                       // of these, those that may change velocities and spins
+    int askingForOwnRows = 0;                       // of these, those that give rows of the rank's own grains
+    bool leavesGrains = false;                      // on their ranks
     std::size_t nextLook = 0, nextClock = 0, lastClockStep = 0;
     double nextTime = 0;  // s
     std::chrono::steady_clock::time_point lastClock, nextProgress;

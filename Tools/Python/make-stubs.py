@@ -26,7 +26,7 @@ class _Array:
     def __get__(self, instance: Any, owner: Any) -> numpy.ndarray: ...
     def __set__(self, instance: Any, value: ArrayLike) -> None: ...
 '''
-TYPES = [(r"\bint\[\d+\]", "int"), (r"(?:pendular\.)?_kernel\.", ""), (r"numpy\.ndarray\[[\w.]+\]", "numpy.ndarray"), (r"\bobject\b", "Any"),
+TYPES = [(r"(?:pendular\.)?_kernel\.", ""), (r"\bobject\b", "Any"),
          (r"\bfunction\b", "Callable[..., Any]"), (r"\bos\.PathLike\b", "Union[str, os.PathLike[str]]"),
          (r"(?<![\w\[])dict\b", "Dict[str, Any]"), (r"\btuple\b", "Tuple[Any, ...]"), (r"\blist\b", "List[Any]")]
 

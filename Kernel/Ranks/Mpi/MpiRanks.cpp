@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -97,19 +98,25 @@ public:
     }
 
     [[nodiscard]] double largest(double value) override {
-        beginLargest(value);
-        return endLargest();
+        // MPI_MAX need not pass on what is not a number.
+        beginLargest(Reduction::Number, {std::isnan(value) ? INFINITY : value, 0, 0});
+        return endLargest()[0];
     }
 
-    void beginLargest(double value) override {
+    /// All reductions have as many numbers, and say what they are for: ranks that wait in different ones get
+    /// an answer, and find it out by that.
+    void beginLargest(Reduction what, const Three& three) override {
         begin(Call::Largest);
-        given = std::isnan(value) ? INFINITY : value;  // MPI_MAX need not pass it on
-        require(MPI_Iallreduce(&given, &most, 1, MPI_DOUBLE, MPI_MAX, reductions, &reduction.emplace_back()));
+        const auto purpose = static_cast<double>(what);
+        given = {three[0], three[1], three[2], purpose, -purpose};
+        require(MPI_Iallreduce(given.data(), most.data(), static_cast<int>(given.size()), MPI_DOUBLE, MPI_MAX,
+                               reductions, &reduction.emplace_back()));
     }
-    [[nodiscard]] double endLargest() override {
+    [[nodiscard]] Three endLargest() override {
         wait(reduction);
         reduction.clear();
-        return most;
+        if (most[3] != -most[4]) throw RunError(inOtherCalls);
+        return {most[0], most[1], most[2]};
     }
     [[nodiscard]] double waited() const override { return waiting.seconds(); }
 
@@ -309,7 +316,7 @@ private:
     std::vector<std::int64_t> lengthsTo, lengthsFrom, sums;
     std::vector<std::string> got;
     std::vector<Message> sent;
-    double given = 0, most = 0;
+    std::array<double, 5> given{}, most{};
     std::vector<MPI_Request> reduction;  // that has begun
 
     Stopwatch waiting;
@@ -335,7 +342,7 @@ private:
 }  // namespace pendular
 
 /// Its number is another one where Exchange or ProcessRanks have other functions (ProgramRanks.cpp).
-extern "C" [[gnu::visibility("default")]] pendular::ProcessRanks* makePendularRanks2() {
+extern "C" [[gnu::visibility("default")]] pendular::ProcessRanks* makePendularRanks3() {
     static pendular::MpiRanks ranks;
     return &ranks;
 }

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "Kernel/Species/ContactSpot.h"
 #include "Kernel/Species/Law.h"
 
 namespace pendular {
@@ -34,6 +36,11 @@ struct JKRInteraction {
         return T(4) * pullOffForce * (hertz * sqrt(hertz) + cube * (T(1) - cube));
     }
     [[nodiscard]] T range() const { return largestReach; }
+    /// a / a_0 = x^2 at a separation.
+    [[nodiscard]] T squaredNeck(T separation) const {
+        const T x = neck(T(0) - separation * inverseLength);
+        return x * x;
+    }
 
 private:
     /// x at an overlap in units of a_0^2 / R*.
@@ -100,6 +107,13 @@ struct JKR {
         return {.pullOffForce = 1.5 * std::numbers::pi * workOfAdhesion * radius,
                 .inverseLength = 1 / length,
                 .largestReach = Interaction<double>::reach * length};
+    }
+    /// Of the contact radius a, which at equal force goes with the modulus as Hertz's: F_c has none.
+    [[nodiscard]] ContactSpot neckAt(const Bodies& bodies, double overlap) const {
+        const double radius = bodies.effectiveRadius();
+        if (workOfAdhesion == 0) return {std::sqrt(radius * std::max(overlap, 0.0)), true};
+        const double zeroLoadRadius = std::sqrt(overlapScale(radius) * radius);  // a_0
+        return {zeroLoadRadius * prepare(bodies).squaredNeck(-overlap), true};
     }
     /// m
     [[nodiscard]] double range(const Bodies& bodies) const {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "Kernel/Species/ContactSpot.h"
 #include "Kernel/Species/Law.h"
 #include "Kernel/Species/Setter.h"
 
@@ -34,10 +36,10 @@ struct DiffusionContact {
 /// D = 2 R* and the neck x^2 = 2 D d at the overlap d
 ///     the attraction a D, the dashpot b x^4, and the resistance c x^2 D to sliding.
 /// Equal grains of radius R that nothing else moves have x^6 = x0^6 + 6 a R^2 t / b; without a first overlap
-/// the dashpot is zero, and they meet at the speed that the attraction gives them. With the default
-/// integrator a contact's own dashpots are implicit, so that no step is too long for a pair; in a bed those
-/// of its neighbours count, which grow by the square of the overlap. Source: MercuryDPM's
-/// ParhamiMcMeekingSinterSpecies.
+/// the dashpot is zero, and they meet at the speed that the attraction gives them. The dashpots grow by the
+/// square of the overlap, without an end. With the default integrator they are implicit, also against those
+/// of the neighbours in a bed (implicitNeighbours), so that no step is too long for them; other integrators
+/// need steps below stableStepOfContacts(). Source: MercuryDPM's ParhamiMcMeekingSinterSpecies.
 struct ParhamiMcMeekingSinter {
     static constexpr std::string_view name = "ParhamiMcMeekingSinter";
     static constexpr std::string_view summary =
@@ -48,6 +50,8 @@ struct ParhamiMcMeekingSinter {
     static constexpr bool readsOverlap = true;
     static constexpr BridgeResists resists = BridgeResists::Sliding;
     static constexpr double largestOverlapInRun = 1;
+    /// Twelve contacts of a grain add up to 4 along a direction, and to 8 x 5/2 of 7/2 of turns: 5.7.
+    static constexpr double implicitNeighbours = 6;
 
     double adhesionCoefficient = unset;      // a, N/m
     double viscosityCoefficient = 0;         // b, N s/m^5
@@ -123,9 +127,17 @@ struct ParhamiMcMeekingSinter {
                 2 * slidingViscosityCoefficient * diameter * diameter};
     }
     [[nodiscard]] double range(const Bodies&) const { return 0; }
+    /// Of the neck x.
+    [[nodiscard]] ContactSpot neckAt(const Bodies& bodies, double overlap) const {
+        return {std::sqrt(4 * bodies.effectiveRadius() * std::max(overlap, 0.0)), false};
+    }
     /// At an overlap of a tenth of the effective radius.
     [[nodiscard]] BridgeResistance<double> largestResistance(const Bodies& bodies) const {
-        return prepare(bodies).resistanceAt(0.1 * bodies.effectiveRadius());
+        return resistanceAt(bodies, 0);
+    }
+    /// At an overlap (m), of at least that: for the step that contacts bear as they are.
+    [[nodiscard]] BridgeResistance<double> resistanceAt(const Bodies& bodies, double overlap) const {
+        return prepare(bodies).resistanceAt(std::max(overlap, 0.1 * bodies.effectiveRadius()));
     }
 
 private:

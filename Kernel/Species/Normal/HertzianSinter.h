@@ -131,8 +131,18 @@ struct HertzianSinter {
     }
     template <class T>
     static void creep(const Prepared& p, const Contact<T>& contact, T step, LargestOverlap<T>& history) {
-        const T r = contact.effectiveRadius;
-        history.largest = min(fma(p.rate * step, r, history.largest), p.limit * r);
+        const T r = contact.effectiveRadius, loaded = max(history.largest, contact.overlap);
+        history.largest = min(fma(p.rate * step, r, loaded), p.limit * r);
+    }
+    static double creepLoss(const Prepared& p, const Contact<double>& contact,
+                            const LargestOverlap<double>& before, const LargestOverlap<double>& after) {
+        const LargestOverlap<double> loaded{
+            min(max(before.largest, contact.overlap), p.limit * contact.effectiveRadius)};
+        return elasticEnergy(p, contact, loaded) - elasticEnergy(p, contact, after);
+    }
+    /// m, of the neck x^2 = 2 R* d where two spheres cut each other: x^2 = R d of equal ones.
+    [[nodiscard]] static double contactRadius(double effectiveRadius, double overlap) {
+        return std::sqrt(2 * effectiveRadius * overlap);
     }
     static double elasticEnergy(const Prepared& p, const Contact<double>& contact,
                                 const LargestOverlap<double>& history) {

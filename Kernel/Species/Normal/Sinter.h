@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <numbers>
 
 #include "Kernel/Species/Normal/Shared/PlasticSprings.h"
@@ -28,8 +29,17 @@ struct PlasticOverlap {
 /// 9, 385, has C = 3/2; balances of energy that keep the volume have C = 1 for small necks. The laws of
 /// square roots hold for x up to 0.3 R. Source of the form: MercuryDPM's SinterNormalSpecies, CONSTANT_RATE
 /// and PARHAMI_MCKEEPING. Here the rate follows the spring's force without the dashpot's, so that sintering
-/// only loses energy, and never goes farther in a step than to where that force is zero, so that no step is
-/// too long for it.
+/// only loses energy.
+///
+/// So spring and rate are a Maxwell element: a spring k and a dashpot eta in series, of the same force,
+///     k u = eta d(d_p)/dt,  u = d - d_p;  eta = S_a / (2 r), or 0.375 S_a (d/D)^2 / r.
+/// It goes a step h by implicit Euler (Hairer and Wanner (1996), Solving Ordinary Differential Equations II,
+/// section IV.3): d_p grows by k h/eta u+ before the force of the step, u+ being what is left of u then, and
+///     u+ = u / (1 + x),  x = k h / eta,
+/// d_p by the share x / (1 + x) of u. A steady force F makes d_p grow by h F / eta in a step however long
+/// that is, as it must. Of Verlet's steps of a mass m on it, y = h^2 k / m, the roots are those of
+/// (1 + x) z^2 - (2 + x - y) z + 1 = 0, within the unit circle for y < 4 + 2 x: the step that the spring
+/// alone bears, y < 4, is stable for any rate.
 struct Sinter : PlasticSprings<Sinter> {
     static constexpr std::string_view name = "Sinter";
     static constexpr std::string_view summary =
@@ -179,8 +189,7 @@ struct Sinter : PlasticSprings<Sinter> {
     template <class T>
     static NormalForce<T> force(const Prepared& p, const Contact<T>& contact, PlasticOverlap<T>& history) {
         const T d = contact.overlap, growth = p.hardening / contact.effectiveRadius, z = growth * d;
-        const T loaded = min(d * (z / (T(1) + z)), p.limit * contact.effectiveRadius);
-        const T plastic = max(history.plastic, loaded);
+        const T plastic = max(history.plastic, loaded(p, contact));
         const T spring = slope(p, growth, plastic) * (d - plastic);
         const T cohesive = T(0) - (p.cohesion * p.loading) * d;
         // Pulled open along -k_c d, the contact has the d_p with k (d - d_p) = -k_c d.
@@ -189,17 +198,30 @@ struct Sinter : PlasticSprings<Sinter> {
         history.plastic = select(spring < cohesive, opened, plastic);
         return {max(spring, cohesive), T(p.dissipation)};
     }
-    /// The plastic overlap after a step (s) with the rate k (d - d_p) / eta, of which a step never takes more
-    /// than the whole way.
+    /// The step of implicit Euler of the plastic overlap, from what loading has made of it.
     template <class T>
     static void creep(const Prepared& p, const Contact<T>& contact, T step, PlasticOverlap<T>& history) {
         if (!(p.viscosity > 0)) return;
         const T d = contact.overlap, r = contact.effectiveRadius, d2 = d * d;
-        const T k = slope(p, p.hardening / r, history.plastic);
+        const T plastic = max(history.plastic, loaded(p, contact));
+        const T relaxed = step * slope(p, p.hardening / r, plastic);  // h k, N s/m
         const T eta = p.viscosity * d2 / (p.constant * d2 + (p.boundary * r) * r);
         constexpr double smallest = 1e-300;  // of an overlap whose square is nothing
-        const T share = min(k * step / max(eta, T(smallest)), T(1));
-        history.plastic = max(min(fma(share, d - history.plastic, history.plastic), p.limit * r), T(0));
+        const T share = relaxed / (max(eta, T(smallest)) + relaxed);
+        history.plastic = max(min(fma(share, d - plastic, plastic), p.limit * r), T(0));
+    }
+    /// The work of the force that the step has left, F+ = -dU/d(d_p), as implicit Euler has it: a steady
+    /// adhesion loses all that it does.
+    static double creepLoss(const Prepared& p, const Contact<double>& contact,
+                            const PlasticOverlap<double>& before, const PlasticOverlap<double>& after) {
+        const double growth = p.hardening / contact.effectiveRadius, left = contact.overlap - after.plastic;
+        const double force = left * (slope(p, growth, after.plastic) - 0.5 * p.loading * growth * left);  // N
+        return force * (after.plastic - max(before.plastic, loaded(p, contact)));
+    }
+    /// m, of the neck: x^2 = 2 R* d where two spheres cut each other (x^2 = R d of equal ones), at a constant
+    /// rate; x^2 = 4 R* d of diffusion (Coble (1958), J. Appl. Phys. 41, 4798, as Parhami and McMeeking).
+    [[nodiscard]] double contactRadius(double effectiveRadius, double overlap) const {
+        return std::sqrt((4 - 2 * sinterType) * effectiveRadius * overlap);
     }
     static double elasticEnergy(const Prepared& p, const Contact<double>& contact,
                                 const PlasticOverlap<double>& history) {
@@ -208,6 +230,12 @@ struct Sinter : PlasticSprings<Sinter> {
     }
 
 private:
+    /// m, the least plastic overlap, that of loading.
+    template <class T>
+    static T loaded(const Prepared& p, const Contact<T>& contact) {
+        const T d = contact.overlap, z = p.hardening / contact.effectiveRadius * d;
+        return min(d * (z / (T(1) + z)), p.limit * contact.effectiveRadius);
+    }
     /// k (N/m) at a plastic overlap.
     template <class T>
     static T slope(const Prepared& p, T growth, T plastic) {

@@ -27,7 +27,7 @@ void addEvents(Making& making) {
 void addGrainColumn(Making& making) {
     const auto column = making.scene.particleHandler.addColumn("way", "m", making.draw.give("initial", 0.5));
     making.actions.afterEach.emplace_back([&scene = making.scene, column] {
-        for (const GrainReference grain : scene.particleHandler)
+        for (const GrainReference grain : scene.particleHandler.ownGrains())
             column[grain.getId()] += grain.getVelocity().norm() * scene.getTimeStep();
     });
 }
@@ -36,7 +36,7 @@ void addContactColumn(Making& making) {
     const ContactColumnReference age =
         making.scene.addContactColumn("age", "s", making.draw.give("initial", 0.0));
     making.actions.afterEach.emplace_back([&scene = making.scene, age] {
-        for (const ObservedContact& contact : scene.interactions()) age[contact] += scene.getTimeStep();
+        for (const ObservedContact& contact : scene.ownInteractions()) age[contact] += scene.getTimeStep();
     });
 }
 

@@ -32,6 +32,13 @@ public:
         if (std::filesystem::exists(restartFile())) restartFrom(restartFile());
     }
 
+    /// Of which one rank may have another number of steps.
+    void runInParts() {
+        runSteps(isDue("parts", 0) ? 121 : 120);
+        runSteps(80);
+        finishRun();
+    }
+
 private:
     [[nodiscard]] bool isDue(std::string_view event, std::size_t step) const {
         const ProcessRanks* const ranks = ranksOfProgram();
@@ -39,6 +46,7 @@ private:
     }
     void setupInitialConditions() override {
         if (isDue("setup", 0)) throw InputError("The scene of this rank is wrong.");
+        if (isDue("radius", 0)) particleHandler.getObject(3).setRadius(0.8e-3);
     }
     void actionsAfterTimeStep() override {
         if (isDue("step", 120) || isDue("early", 60)) throw RunError("A grain of this rank has gone.");
@@ -47,6 +55,9 @@ private:
         if (isDue("leave", 120)) std::exit(0);
         if (isDue("gather", 120)) gather();
         if (isDue("sum", 120)) static_cast<void>(sumOverRanks(1));
+        if (isDue("largest", 120)) static_cast<void>(largestOfRanks(1));
+        if (isDue("gravity", 120)) setGravity({0, 0, -5});
+        if (isDue("pause", 120)) requestPause();
         if (isDue("disk", 120) || isDue("piece", 120)) {  // as a full disk: no file grows any more
             std::signal(SIGXFSZ, SIG_IGN);
             const rlimit none{0, 0};
@@ -69,9 +80,11 @@ private:
 
 int main(int argc, char** argv) {
     return runProgram([&] {
-        FaultyRun(argv[1], std::strtoul(argv[2], nullptr, 10), argc > 4 ? argv[3] : "",
-                  argc > 4 ? std::strtoul(argv[4], nullptr, 10) : 0)
-            .solve();
+        const std::string what = argc > 4 ? argv[3] : "";
+        FaultyRun scene(argv[1], std::strtoul(argv[2], nullptr, 10), what,
+                        argc > 4 ? std::strtoul(argv[4], nullptr, 10) : 0);
+        if (what == "pause" || what == "parts") scene.runInParts();
+        else scene.solve();
         return 0;
     });
 }

@@ -7,8 +7,8 @@
 
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Species/Laws.h"
-#include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Species/Normal/LawCollision.h"
+#include "SelfTests/Species/Normal/SinteringPair.h"
 #include "SelfTests/Support/Refusal.h"
 
 // Contacts that sinter: the branches of their laws by hand, and the necks of pairs against closed forms and
@@ -17,35 +17,8 @@
 namespace pendular::sinterTest {
 namespace {
 
+using scenes::SinteringPair;
 using support::contains;
-
-/// Two equal grains that touch along x, and what is seen of them.
-template <class S>
-struct Pair : scenes::FewGrains<S> {
-    Pair(S species, double grainRadius, double mass, double overlap, double step, double apart = 0)
-        : scenes::FewGrains<S>(withMass(species, grainRadius, mass),
-                               {{.radius = grainRadius, .position = {0, 0, 0}},
-                                {.radius = grainRadius,
-                                 .position = {2 * grainRadius - overlap, 0, 0},
-                                 .velocity = {apart, 0, 0}}},
-                               step),
-          radius(grainRadius) {
-        this->keepEnergyLedger();
-        this->initialise();
-    }
-    /// m
-    double overlap() { return 2 * radius - (this->motion(1).position - this->motion(0).position).norm(); }
-    void runUntil(double time) {
-        while (this->getTime() < time - 0.5 * this->getTimeStep()) this->step();
-    }
-    const double radius;  // m
-
-private:
-    static S withMass(S species, double radius, double mass) {
-        species.setDensity(mass / (4.0 / 3 * std::numbers::pi * radius * radius * radius));
-        return species;
-    }
-};
 
 Sinter sinter(double rate, SinterType type) {
     Sinter law;
@@ -69,7 +42,8 @@ TEST(Sinter, overlapOfAConstantRateGrowsWithTime) {
         double time, overlap;  // s, m
     };
     constexpr std::array rows{Row{0.5, 2.00082428249449e-06}, Row{1, 4.00070104125189e-06}};
-    Pair<SinterSpecies> pair(speciesOf(sinter(0.02, SinterType::ConstantRate)), 1e-4, 2e-7, 1e-16, 1e-5);
+    SinteringPair<SinterSpecies> pair(speciesOf(sinter(0.02, SinterType::ConstantRate)), 1e-4, 2e-7, 1e-16,
+                                      1e-5);
     const double closed = pair.energyLedger().closed();
     for (const Row& row : rows) {
         pair.runUntil(row.time);
@@ -79,17 +53,17 @@ TEST(Sinter, overlapOfAConstantRateGrowsWithTime) {
     const EnergyLedger& ledger = pair.energyLedger();
     const double work = 1e-3 * 1e-4 * pair.overlap();  // J
     EXPECT_NEAR(-ledger.adhesive / work, 1, 1e-4);
-    // In a step the spring gives way by the share k dt / eta of its length, k = 100 to 124 N/m and
-    // eta = S_a / (2 r), and its force by as much: half of that is with what is lost plastic, as its error.
     EXPECT_NEAR((ledger.sintering + ledger.plastic + ledger.elastic) / work, 1, 1e-3);
-    EXPECT_NEAR(ledger.sintering / work, 1 - 0.5 * 112 * 1e-5 / 0.025, 3e-3);
+    // All but what loading has taken before the spring has the adhesion's length, F d/2 of S_a R / k = 1 nm
+    // of the 4 um, and what the last spring has.
+    EXPECT_NEAR(ledger.sintering / work, 1, 1e-3);
     // 1e5 steps of a dozen numbers, each rounded by 2^-53 of the work: at random 1e3 x 1e-16.
     EXPECT_NEAR(ledger.closed() - closed, 0, 1e-12 * work);
 }
 
 /// s, when the neck x^2 = 2 R d of a pair is so large (of the radius).
 template <class S>
-double timeOfNeck(Pair<S>& pair, double neck) {
+double timeOfNeck(SinteringPair<S>& pair, double neck) {
     const double wanted = 0.5 * neck * neck * pair.radius;
     double last = pair.overlap();
     while (true) {
@@ -107,7 +81,7 @@ TEST(Sinter, neckOfGrainBoundaryDiffusionHasItsClosedForm) {
     law.setPlasticParameters(1e6, 1e6, 0, 0.3);
     constexpr double radius = 1e-6, energy = 1.1, diffusion = 1e-32;
     law.setGrainBoundaryDiffusion(energy, diffusion, radius);
-    Pair<SinterSpecies> pair(speciesOf(law), radius, 2, 1e-18, 1e-4);
+    SinteringPair<SinterSpecies> pair(speciesOf(law), radius, 2, 1e-18, 1e-4);
     const double first = timeOfNeck(pair, 0.1), then = timeOfNeck(pair, 0.15);
     EXPECT_NEAR((then - first) / 17.4926346801347, 1, 2e-3);
     const double slope = 54 * energy * diffusion / std::pow(radius, 4);
@@ -122,7 +96,7 @@ TEST(Sinter, viscousSpheresHaveTheConstantThatIsAskedFor) {
         law.setPlasticParameters(100, 100, 0, 0.3);
         law.setSinterAdhesion(1e-3);
         law.setViscousSintering(tension, viscosity, radius, constant);
-        Pair<SinterSpecies> pair(speciesOf(law), radius, 2e-7, 1e-16, 4e-6);
+        SinteringPair<SinterSpecies> pair(speciesOf(law), radius, 2e-7, 1e-16, 4e-6);
         pair.runUntil(0.05);                                                    // s
         const double square = (pair.overlap() - 1e-3 * radius / 100) / radius;  // less the spring's part
         EXPECT_NEAR(square / (constant * tension * 0.05 / (viscosity * radius)), 1, 1e-3);
@@ -202,7 +176,7 @@ TEST(Sinter, overlapsMayReachTheRadius) {
     Sinter law = sinter(5, SinterType::ConstantRate);
     law.setPenetrationDepthMax(3);
     law.setSinterAdhesion(0.1);  // N/m
-    Pair<SinterSpecies> pair(speciesOf(law), 1e-4, 2e-7, 1e-16, 1e-5);
+    SinteringPair<SinterSpecies> pair(speciesOf(law), 1e-4, 2e-7, 1e-16, 1e-5);
     double deepest = 0;
     try {
         for (int k = 0; k < 40000; ++k) {
@@ -213,8 +187,8 @@ TEST(Sinter, overlapsMayReachTheRadius) {
     } catch (const RunError& error) {
         EXPECT_TRUE(contains(error.what(), "more than 100 %"));
     }
-    EXPECT_GT(deepest / pair.radius, 1);
-    EXPECT_LT(deepest / pair.radius, 1.15);  // looked for after approaches of a tenth
+    EXPECT_GT(deepest / pair.radius, 1 - 1e-4);  // the last step before grows it by 2 r R dt = 1e-4 R
+    EXPECT_LT(deepest / pair.radius, 1.15);      // looked for after approaches of a tenth
 }
 
 // First loading 4/3 E1 sqrt(2 D) d^(3/2), D = 2 R*; unloading from d_0; a pull of E_c below it; then the
@@ -263,7 +237,7 @@ TEST(HertzianSinter, neckGrowsAsItsClosedForm) {
     species.setPlasticParameters(e1, ep, ec, phi);
     species.setSinterRate(rate);
     species.setDissipation(0.1);  // so that they do not part at the start
-    Pair<HertzianSinterSpecies> pair(species, radius, 1e-5, start * radius, 4e-6);
+    SinteringPair<HertzianSinterSpecies> pair(species, radius, 1e-5, start * radius, 4e-6);
     pair.runUntil(0.02);
     pair.speciesHandler.getObject(0)->setDissipation(0.01);
     const double es = e1 + ec, limit = phi / (1 - std::pow(es / ep, 2.0 / 3));  // of m / R
@@ -283,7 +257,7 @@ TEST(ParhamiMcMeekingSinter, neckHasItsClosedForm) {
     HertzianViscoelasticParhamiMcMeekingSinterSpecies species;
     species.setEffectiveElasticModulus(1e-4), species.setDissipation(0);
     species.setAdhesionCoefficient(a), species.setViscosityCoefficient(b);
-    Pair<HertzianViscoelasticParhamiMcMeekingSinterSpecies> pair(species, radius, 2e-3, start, 1e-4);
+    SinteringPair<HertzianViscoelasticParhamiMcMeekingSinterSpecies> pair(species, radius, 2e-3, start, 1e-4);
     const double closed = pair.energyLedger().closed();
     pair.runUntil(6);  // s
     const double sixth = 8 * std::pow(start, 3) + 6 * a * 6 / b;

@@ -268,6 +268,7 @@ TEST(WallBody, whatCannotBeIsRefused) {
 class Failing : public StepPart {
 public:
     [[nodiscard]] std::string_view name() const override { return "failing"; }
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}  // it has no settings
     void afterForces(StepContext& step) override {
         if (step.number == 100) throw RunError("It fails.");
     }

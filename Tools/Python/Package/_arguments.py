@@ -38,7 +38,7 @@ def _is_path(value: Any) -> bool:
     return isinstance(value, (str, bytes, os.PathLike))
 
 
-# By the type as pybind11 writes it: what it takes, and in words.
+# By the type as _signature.plain() writes it: what it takes, and in words.
 _KINDS: Dict[str, Tuple[Callable[[Any], bool], str]] = {
     "float": (_is_number, "a number"),
     "int": (_is_whole, "a whole number"),
@@ -145,11 +145,11 @@ def _fault_of_values(name: str, of_call: List[Tuple[Argument, Any]]) -> str:
     return ""
 
 
-def explain(said: str, name: str, doc: str, given: Tuple[Any, ...], named: Dict[str, Any], attribute: Any) -> str:
+def explain(said: Optional[str], name: str, doc: str, given: Tuple[Any, ...], named: Dict[str, Any], attribute: Any) -> str:
     """The sentence.
 
-    said: what is to be replaced; name: of the function, or of the class that is made; doc: its docstring; attribute: one
-    that is assigned, or None.
+    said: what stands where nothing better is found, or None; name: of the function, or of the class that is made; doc: its
+    docstring; attribute: one that is assigned, or None.
     """
     found = signature(doc)
     takes, name = found.arguments if found else [], _CALLED_BY.get(name, name)
@@ -160,9 +160,9 @@ def explain(said: str, name: str, doc: str, given: Tuple[Any, ...], named: Dict[
     if attribute is not None:
         return _wrong_kind(name, takes[-1], given[-1], _unit(attribute))
     fault = _fault(name, takes, given, named) if found else ""
-    if not fault and "incompatible" in said:
+    if not fault and said is None:
         return f"{name}() does not take these arguments together: {', '.join(map(_shown, [*given, *named.values()]))}."
-    return fault or said
+    return fault or said or ""
 
 
 _kernel._set_explanation(explain)

@@ -138,7 +138,8 @@ class _bar:
     """Progress by tqdm, or as a line on standard error."""
 
     def __init__(self, start: float, end: float, name: str) -> None:
-        self.start, self.end, self.name, self.bar = start, end, name, None
+        self.start, self.end, self.name = start, end, name
+        self.bar: Any = None  # of tqdm, whose types mypy knows or not
 
     def __enter__(self) -> Callable[[float], None]:
         try:
@@ -150,7 +151,7 @@ class _bar:
         return self._move
 
     def _move(self, time: float) -> None:
-        self.bar.update(min(time, self.end) - self.bar.n)  # type: ignore[attr-defined]
+        self.bar.update(min(time, self.end) - self.bar.n)
 
     def _line(self, time: float) -> None:
         print(f"\r{self.name}: {time:.4g} of {self.end:.4g} s", end="", file=sys.stderr, flush=True)

@@ -69,8 +69,8 @@ struct SurfaceRegion {
     double strip;  // m, width of the strips
 };
 
-/// Degrees, the dynamic angle of repose: of the line of least squares through the highest centre in each
-/// strip along x. Positive where the surface rises with x.
+/// Degrees, the dynamic angle of repose: by the median slope of all pairs of the highest centres in strips
+/// along x. Positive where the surface rises with x.
 inline double surfaceAngle(std::span<const Vec3D> centres, const SurfaceRegion& region) {
     std::map<int, Vec3D> highest;
     for (const Vec3D& centre : centres) {
@@ -81,7 +81,7 @@ inline double surfaceAngle(std::span<const Vec3D> centres, const SurfaceRegion& 
     }
     std::vector<CurvePoint> points;
     for (const auto& [strip, centre] : highest) points.push_back({centre.x(), centre.z()});
-    return std::atan(fitLine(points).slope) * 180 / std::numbers::pi;
+    return std::atan(medianSlope(points)) * 180 / std::numbers::pi;
 }
 
 /// Degrees, by which the centre of mass of grains in a drum about the origin is turned from below the axis:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "Drivers/Shared/MeanFlow.h"
 #include "Tools/Studies/AccuracyVersusCost/BulkFigures.h"
 #include "Tools/Studies/BulkComparison/BulkScene.h"
 
@@ -93,7 +94,9 @@ public:
             std::vector<CurvePoint> steady;
             for (const CurvePoint& p : left)
                 if (p.x >= scene.measureFrom) steady.push_back(p);
-            found.emplace_back("flow_kg/s", fitLine(steady).slope);
+            const MeanFlow mean = meanFlow(steady);
+            found.emplace_back("flow_kg/s", mean.flow);
+            found.emplace_back("flow_error_kg/s", mean.error);
         }
         if (scene.name == "impact") found.emplace_back("depth_m", scene.grains.back().position.z() - deepest);
         return found;

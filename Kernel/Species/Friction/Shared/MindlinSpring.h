@@ -3,17 +3,12 @@
 #include <array>
 #include <cmath>
 
+#include "Kernel/Species/ElasticConstants.h"
 #include "Kernel/Species/Friction/Shared/SlidingSpring.h"
 #include "Kernel/Species/Friction/Shared/SpringSlider.h"
 #include "Kernel/Species/Friction/Shared/TangentialSpring.h"
 
 namespace pendular {
-
-/// The effective shear modulus G* of two bodies of the same material (Pa) from its Young's modulus E (Pa) and
-/// Poisson's ratio: 1/G* = 2 (2 - nu) / G with G = E / (2 (1 + nu)).
-inline double computeEffectiveShearModulus(double elasticModulus, double poissonRatio) {
-    return 0.25 * elasticModulus / ((1 + poissonRatio) * (2 - poissonRatio));
-}
 
 /// The parameters of Mindlin's tangential spring: k_t = 8 G* sqrt(R* d), with the dashpot beta_t sqrt(m* k_t)
 /// and the limit mu times the normal force. Law is the law derived from this.

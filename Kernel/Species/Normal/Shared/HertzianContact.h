@@ -2,17 +2,11 @@
 
 #include <array>
 
+#include "Kernel/Species/ElasticConstants.h"
 #include "Kernel/Species/Law.h"
 #include "Kernel/Species/Setter.h"
 
 namespace pendular {
-
-/// The effective elastic modulus E* of two bodies of the same material (Pa) from its Young's modulus E (Pa)
-/// and Poisson's ratio: 1/E* = 2 (1 - nu^2) / E. (Thornton et al. 2023, section 4.1, print 1 - nu: a
-/// misprint.)
-inline double computeEffectiveElasticModulus(double elasticModulus, double poissonRatio) {
-    return 0.5 * elasticModulus / (1 - poissonRatio * poissonRatio);
-}
 
 /// The base of laws with Hertz's elastic force: F = 4/3 E* sqrt(R*) d^(3/2). Law is the law derived from
 /// this; its Prepared has the stiffnessFactor 4/3 E* (Pa).
@@ -39,14 +33,14 @@ struct HertzianContact {
     /// E* from Young's modulus (Pa) and Poisson's ratio (-1 to 0.5) of the one material of both bodies.
     void setElasticModulusAndPoissonRatio(double elasticModulus, double poissonRatio) {
         checkValue(Law::name, "elastic modulus", elasticModulus, "Pa", positive);
-        checkValue(Law::name, "Poisson's ratio", poissonRatio, "", {-1, 0.5, false, true});
+        checkValue(Law::name, "Poisson's ratio", poissonRatio, "", poissonRatios);
         setEffectiveElasticModulus(computeEffectiveElasticModulus(elasticModulus, poissonRatio));
     }
 
     static std::vector<Setter<Law>> setters() {
         return {
             {"elasticModulusAndPoissonRatio",
-             {{"elasticModulus", "Pa", positive}, {"poissonRatio", "", {-1, 0.5, false, true}}},
+             {{"elasticModulus", "Pa", positive}, {"poissonRatio", "", poissonRatios}},
              "effectiveElasticModulus of two bodies of this material",
              [](Law& law, std::span<const double> v) { law.setElasticModulusAndPoissonRatio(v[0], v[1]); }}};
     }

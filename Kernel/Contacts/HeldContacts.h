@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace pendular {
+
+/// Which contacts between two bodies that are held along all axes, or of such a grain with a wall, a scene
+/// has. Their forces move nothing.
+enum class HeldContacts {
+    /// Where something needs them: heat, walls that forces move, walls whose forces are kept or that wear.
+    WhereAsked,
+    All,
+    None
+};
+
+/// Of them, those that are listed.
+struct ListedOfHeld {
+    bool pairs = false;
+    std::vector<bool> walls;  // by their numbers
+
+    [[nodiscard]] bool atWall(std::size_t wall) const { return wall < walls.size() && walls[wall]; }
+    [[nodiscard]] bool any() const {
+        for (const bool wall : walls)
+            if (wall) return true;
+        return pairs;
+    }
+    friend bool operator==(const ListedOfHeld&, const ListedOfHeld&) = default;
+};
+
+}  // namespace pendular
