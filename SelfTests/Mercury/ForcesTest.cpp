@@ -382,7 +382,7 @@ public:
         BondMaterial glue;
         glue.radius = 1e-3, glue.damping = 1;
         glue.stiffness = [](const BondSection&, double) {
-            return BondStiffness{stiffness, stiffness, 1e-3, 1e-3};
+            return BondStiffness{stiffness, 0.1 * stiffness, 1e-4, 1e-4};
         };
         bonds.join(0, 1, bonds.addMaterial(glue));
         setIntegrator(scheme);

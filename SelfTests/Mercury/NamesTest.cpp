@@ -403,11 +403,12 @@ TEST(MercuryNames, staticFrictionIsARatio) {
 }
 
 TEST(MercuryNames, namesOfSpeciesWithEachAdhesion) {
-    static_assert(std::is_same_v<LinearViscoelasticFrictionSpecies, Species<LinearViscoelastic, Friction>>);
+    static_assert(
+        std::is_same_v<LinearViscoelasticFrictionSpecies, Species<LinearViscoelastic, pendular::Friction>>);
     static_assert(std::is_same_v<LinearPlasticViscoelasticFrictionReversibleAdhesiveSpecies,
-                                 Species<LinearPlasticViscoelastic, Friction, ReversibleAdhesive>>);
+                                 Species<LinearPlasticViscoelastic, pendular::Friction, ReversibleAdhesive>>);
     static_assert(std::is_same_v<LinearViscoelasticFrictionLiquidBridgeWilletSpecies,
-                                 Species<LinearViscoelastic, Friction, LiquidBridgeWillett>>);
+                                 Species<LinearViscoelastic, pendular::Friction, LiquidBridgeWillett>>);
     EXPECT_EQ(LinearViscoelasticFrictionSpecies::name, "LinearViscoelasticFrictionSpecies");
 }
 
