@@ -444,6 +444,7 @@ TEST(MercuryForces, areNotInTheVelocitiesThatOtherPartsRead) {
     struct Reads : StepPart {
         std::vector<Vec3D> seen;
         [[nodiscard]] std::string_view name() const override { return "reads velocities"; }
+        void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}  // no settings
         void afterForces(StepContext& step) override {
             seen.push_back(step.particles.getObject(0).getVelocity());
         }
