@@ -302,7 +302,8 @@ TEST(HeldContacts, areNotListedWhereNothingNeedsThem) {
     grains.push_back({.radius = r, .position = {10.45 * r, 10.45 * r, 1.47 * r}});
     FewGrains<Linear> scene(linear(), grains, dt, {{{0, 0, -1}, {0, 0, -0.99 * r}}});
     scene.setGravity({0, 0, -9.81});
-    ready(scene).run(3);
+    ready(scene).setQuiet(false);
+    scene.run(3);
     std::size_t between = 0, listed = 0;
     scene.contacts().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
         ++listed;
@@ -333,7 +334,8 @@ TEST(HeldContacts, areLeftOutWithoutAWordWhereTheyAreNotWanted) {
     FewGrains<Linear> scene(linear(), heldPair(), dt, {{{0, 0, -1}, {0, 0, -r + deep}}});
     scene.setHeldContacts(HeldContacts::None);
     scene.wallHandler.keepForces();
-    ready(scene).run(3);
+    ready(scene).setQuiet(false);
+    scene.run(3);
     EXPECT_EQ(scene.contactForceOn(0), Vec3D::Zero());
     EXPECT_EQ(scene.wallHandler.getObject(0).getForce(), Vec3D::Zero());
     EXPECT_TRUE(lines.told.empty());
@@ -347,7 +349,8 @@ TEST(HeldContacts, areToldOfOnceTheyTouch) {
             linear(),
             {{.radius = r, .fixed = true}, {.radius = r, .position = {2.1 * r, 0, 0}, .fixed = true}}, 1e-4,
             {{{-1, 0, 0}, {atWall ? -1.1 * r : -9 * r, 0, 0}}});
-        ready(scene).initialise();
+        ready(scene).setQuiet(false);
+        scene.initialise();
         EXPECT_EQ(scene.contactForceOn(0), Vec3D::Zero());
         EXPECT_TRUE(lines.told.empty());
         scene.particleHandler.getObject(atWall ? 0 : 1).setVelocity({-0.1, 0, 0});
