@@ -206,7 +206,7 @@ TEST(RollingTorsion, springsHaveTheLeversOfTheirLaws) {
 TEST(RollingTorsion, hasMindlinsStiffnessWhereNoneIsGiven) {
     Hertzian species = material<Hertzian>(0.1, 0.1);
     species.setRollingStiffness(0), species.setTorsionStiffness(0);
-    species.setSpringFactor(0.5);
+    species.setSpringFactor(0.5), species.setSlidingDissipation(0.3);
     const double mindlin =
         8 * computeEffectiveShearModulus(1e8, 0.3) * std::sqrt(7.5e-4 * largestSoundOverlap * 1e-3);
     const ContactStiffness found = stiffnessOf(species);
