@@ -79,6 +79,7 @@ mount_what_it_needs() {
     mount -t proc proc "$root/proc"
     mount --rbind /sys "$root/sys"
     mount --rbind /dev "$root/dev"
+    inside dpkg --configure -a  # what a run before has left half installed
     if [[ -n $shared ]]; then
         mkdir -p "$root/root/shared"
         mount --bind -o ro "$shared" "$root/root/shared"
@@ -121,7 +122,7 @@ END
 server() {
     commands <<'END'
 Tools/install-dependencies.sh --view
-cmake --preset release -D PENDULAR_VIEW=ON
+cmake --preset release -D PENDULAR_WARNINGS_AS_ERRORS=ON -D PENDULAR_VIEW=ON
 cmake --build --preset release --target view WetTower
 export PENDULAR_VIEW=$PWD/build/release/Tools/view PENDULAR_DRIVERS=$PWD/build/release/Drivers
 mkdir -p build/runs
@@ -141,7 +142,7 @@ END
 ranks() {
     commands <<'END'
 Tools/install-dependencies.sh --mpi
-cmake --preset release -D PENDULAR_MPI=ON
+cmake --preset release -D PENDULAR_WARNINGS_AS_ERRORS=ON -D PENDULAR_MPI=ON
 cmake --build --preset release --target WetTower
 for count in 1 2; do
     mpirun --oversubscribe -n $count build/release/Drivers/WetTower/WetTower --output build/ranks-$count
@@ -153,7 +154,7 @@ tests() {
     environment+=(PENDULAR_REQUIRE_DEPENDENCIES=1)
     commands <<'END'
 Tools/install-dependencies.sh --readers --python --mpi --view
-cmake --preset release -D PENDULAR_BUILD_TESTS=ON -D PENDULAR_QUICK_TEST_BUILD=ON
+cmake --preset release -D PENDULAR_WARNINGS_AS_ERRORS=ON -D PENDULAR_BUILD_TESTS=ON -D PENDULAR_QUICK_TEST_BUILD=ON
 cmake --build --preset release
 ctest --preset release
 END

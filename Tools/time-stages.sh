@@ -4,7 +4,8 @@
 stageTable=$(mktemp) stageClock=$(mktemp) stageRuns="" stageBegin=0 processorBegin=0
 print_stages() {
     local status=$?
-    if [[ -n $stageRuns ]]; then end_stage "$stageRuns: failed, exit code $status"; fi
+    if ((status > 0)) && [[ -n $stageRuns ]]; then end_stage "$stageRuns: failed, exit code $status"; fi
+    if [[ -n $stageRuns ]]; then end_stage "$stageRuns: interrupted"; fi  # by a signal
     if [[ -s $stageTable ]]; then
         echo "== Where the time went (seconds, and those of all processors)"
         cat "$stageTable"

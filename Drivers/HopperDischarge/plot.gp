@@ -24,5 +24,5 @@ set yrange [0:*]
 set fit quiet logfile "/dev/null"
 set offsets 0, 1, 0.02, 0
 fit a * x + b flows using "orifice_m":(column("beverloo_kg/s")**0.4) via a, b
-plot a * 1e-3 * x + b with lines linestyle 4 title "Beverloo's law", \
+plot a * 1e-3 * x + b with lines linestyle 4 title "Beverloo's law, fitted", \
      flows using (1e3 * column("orifice_m")):(column("flow_kg/s")**0.4) with points linestyle 1 title "simulation"

@@ -20,7 +20,7 @@
 namespace pendular {
 
 Features BodyPart::features(const StepContext& scene) const {
-    const bool areThere = scene.contacts.ranks().any(!scene.grains().bodies.empty());
+    if (asksRanks) areThere = scene.contacts.ranks().any(!scene.grains().bodies.empty());
     return areThere || inlets.bringBodies() ? Features{Feature::RigidBodies} : Features{};
 }
 

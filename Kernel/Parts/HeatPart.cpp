@@ -317,6 +317,7 @@ void HeatPart::atEnd(StepContext& step) {
 
 /// Those with which the run began.
 void HeatPart::compareSettings(StateArchive& archive) const {
+    archive.same("conduction", static_cast<int>(conduction));
     archive.same("materials", static_cast<std::uint64_t>(materials.size()));
     for (const auto& [species, m] : materials)
         archive.group(fmt::format("species{}", species), [&, &m = m] {
@@ -329,7 +330,6 @@ void HeatPart::compareSettings(StateArchive& archive) const {
             archive.same("temperature", held.temperature, "K");
             archive.same("conductivity", held.conductivity, "W/(m K)");
         });
-    archive.same("conduction", static_cast<int>(conduction));
     archive.same("radiusFactor", radiusFactor);
     archive.same("heatByContacts", contactsHeat ? 1 : 0);
 }

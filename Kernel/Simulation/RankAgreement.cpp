@@ -136,7 +136,7 @@ std::string differenceOfGrains(GrainSharing& ranks, ParticleStore& grains) {
     for (std::size_t k = 0; k < firstByte / sizeof(std::uint64_t); ++k) ++at;
     const std::uint32_t identity = grains.identity[*at];
     const std::string difference = differenceOfRanks(ranks, [&](StateArchive& archive) {
-        archive.group(fmt::format("particle {}: ", identity), [&] { visitGrain(archive, grains, identity); });
+        archive.group(fmt::format("particle {}", identity), [&] { visitGrain(archive, grains, identity); });
     });
     if (!difference.empty()) return difference;
     return fmt::format("the acceleration of particle {} is not the same on all ranks", identity);

@@ -1,5 +1,7 @@
 #include "Kernel/Simulation/Scene.h"
 
+#include <cstdlib>
+
 #include "Kernel/Base/Cache.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Contacts/EventsOfRanks.h"
@@ -50,7 +52,8 @@ void Scene::setLaws(ContactLaws& of) {
 /// A driver that steps by itself looks at the grains as it likes: it shares them only where it says so.
 void Scene::setUp() {
     if (hasCourse() && !inside->sharing)
-        if (Exchange* const others = ranksOfProgram()) setRanks(*others, {});
+        if (Exchange* const others = ranksOfProgram())
+            setRanks(*others, {.cutsWander = std::getenv("PENDULAR_CUTS_WANDER") != nullptr});  // in tests
     static_cast<void>(agreeOnLargest(0));  // none writes files that others are still looking for
     inside->setUp();
 }

@@ -200,9 +200,9 @@ private:
     void visitSettings(StateArchive& archive);
     void visitSetUp(StateArchive& archive);
     void agreeAtList();
-    void agreeOnAll();
+    void agreeOnAll(bool isSetUp = false);
     [[nodiscard]] std::uint64_t hashOfStep();
-    [[noreturn]] void refuseDifference(const std::string& difference) const;
+    [[noreturn]] void refuseDifference(const std::string& difference, bool isSetUp = false) const;
 
     void visitScene(StateArchive& archive);
     void visitSurroundings(StateArchive& archive);

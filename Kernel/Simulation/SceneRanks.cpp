@@ -61,8 +61,7 @@ void Scene::Inside::visitSetUp(StateArchive& archive) {
     archive.same("gapOfFirstBridges", gapOfFirstBridges, "m");
 }
 
-void Scene::Inside::refuseDifference(const std::string& difference) const {
-    const bool isSetUp = scene.getNumberOfTimeSteps() == scene.getFirstStep();
+void Scene::Inside::refuseDifference(const std::string& difference, bool isSetUp) const {
     const std::string where = isSetUp ? "At set-up"
                                       : fmt::format("At time {:.6g} s, after {} steps,", scene.getTime(),
                                                     scene.getNumberOfTimeSteps());
@@ -98,13 +97,13 @@ void Scene::Inside::agreeAtList() {
     agreeOnSettings();
 }
 
-void Scene::Inside::agreeOnAll() {
+void Scene::Inside::agreeOnAll(bool isSetUp) {
     ParticleStore& grains = scene.particleHandler.store();
     const ToAgreeOn visit = [this](StateArchive& archive) { visitSetUp(archive); };
     if (!sharing->agree(Reduction::SetUp, hashOf(visit)).areAlike)
-        refuseDifference(differenceOfRanks(*sharing, visit));
+        refuseDifference(differenceOfRanks(*sharing, visit), isSetUp);
     if (!sharing->agree(Reduction::SetUp, hashOfGrains(grains)).areAlike)
-        refuseDifference(differenceOfGrains(*sharing, grains));
+        refuseDifference(differenceOfGrains(*sharing, grains), isSetUp);
 }
 
 RunNumbers Scene::Inside::numbersOfAll() {

@@ -71,7 +71,7 @@ void Scene::Inside::setUp() {
     }
     prepare();
     ParticleStore& grains = particles.store();
-    if (sharing) agreeOnAll();
+    if (sharing) agreeOnAll(true);
     if (periodicWalls.haveEnds()) wrapAll(grains);
     contacts.refresh(grains, 0, 0);
     if (gapOfFirstBridges > 0) {
@@ -115,7 +115,9 @@ Features Scene::Inside::wakeParts() {
 
 void Scene::Inside::refuseForMovingImages() {
     contextNow(stepLength());
+    bodies.askRanks(!isDistributed());
     const Features found = wakeParts();
+    bodies.askRanks(true);
     refuseConflictsOf(flow.features(context), found);
     if (scene.hasBegun()) parts.refuseOwnConflicts(found);
     flow.check(context);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Simulation/ChosenTimeStep.h"
 #include "Kernel/Simulation/Scene.h"
 #include "Kernel/Species/ElasticConstants.h"
@@ -32,7 +33,9 @@ public:
     ScaledSpecies& operator=(const ScaledSpecies&) = delete;
     ~ScaledSpecies() {
         for (auto kept = before.rbegin(); kept != before.rend(); ++kept) *kept->first = kept->second;
-        scene.laws().mixAll();  // as it was before
+        try {
+            scene.laws().mixAll();      // as it was before
+        } catch (const InputError&) {}  // nor could it be mixed before, which who asks next is told
     }
 
     /// @param least of the powers that are scaled

@@ -514,9 +514,10 @@ TEST(Drivers, takeARestartFileByItsName) {
     // The new folder has a table of the times since then.
     EXPECT_NEAR(rowsOf(other.path() / "zones.csv").front()[0], 0.006,
                 3e-5);  // a step of 0.8 us sqrt(1000) at most
-    expectOneSentence(drumOf(300, 1000, from + "--speed-rad/s 3"), "driver/speed is 2 rad/s in the file");
+    expectOneSentence(drumOf(300, 1000, from + "--speed-rad/s 3"),
+                      "firstAngularVelocity is (0, -2, 0) rad/s in the file");
     expectOneSentence(drumOf(300, 900, from), "does not fit this scene: species/");
-    expectOneSentence(drumOf(310, 1000, from), "walls/0/profile is not the same");
+    expectOneSentence(drumOf(310, 1000, from), "walls/0/profile");
     expectOneSentence(drumOf(300, 1000, to + "--restart /no/such"), "/no/such does not exist");
     expectOneSentence(run(bed + from), "does not fit this scene");
     expectOneSentence(drumOf(300, 1000, to + "--wall-time soon"), "'soon' is not a time");

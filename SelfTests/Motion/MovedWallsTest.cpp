@@ -120,8 +120,7 @@ TEST(MovedWalls, runsUnderAPistonStandTheBound) {
             const double before = scene.moving();
             scene.step(grows ? 14 : 1000);
             // The energy of velocity Verlet is kept but for 1 / (1 - (h w)^2 / 4), 1 / (1 - 0.999^2) at most.
-            if (grows) EXPECT_GT(scene.moving(), 1e5 * before) << mass;
-            else EXPECT_LT(scene.moving(), 600 * before) << mass;
+            EXPECT_EQ(scene.moving() > 600 * before, grows) << mass << " " << scene.moving() / before;
         }
     }
 }
@@ -146,7 +145,8 @@ TEST(MovedWalls, runsUnderAPistonStandTheBoundWithDashpots) {
                     return scene.moving() / before;
                 };
                 EXPECT_LT(run(0.999), 1e-2) << scheme.name << " " << mass << " " << ratio;
-                if (mass < 0.1) EXPECT_GT(run(1.1), 1e2) << scheme.name << " " << mass << " " << ratio;
+                if (mass > 0.05) continue;
+                EXPECT_GT(run(1.1), 1e2) << scheme.name << " " << mass << " " << ratio;
             }
 }
 

@@ -111,7 +111,7 @@ TEST_F(Mpi, allEndWhereOneFails) {
           {"gather", "1", "Error: Ranks wait for each other in different calls[^\n]*\\."},
           {"sum", "1", "Error: Ranks wait for each other in different calls[^\n]*\\."},
           {"largest", "1", "Error: Ranks wait for each other in different calls[^\n]*\\."},
-          {"radius", "1", "Error: At set-up the ranks do not agree: particle 3: radius is [^\n]*\\."},
+          {"radius", "1", "Error: At set-up the ranks do not agree: particle 3/radius is [^\n]*\\."},
           {"gravity", "1", "Error: [^\n]*the ranks do not agree: gravity is [^\n]*\\."},
           {"pause", "1", "Error: [^\n]*the ranks do not agree: requestPause\\(\\) is not called [^\n]*\\."},
           {"parts", "1", "Error: [^\n]*the ranks do not agree: the last step of this part [^\n]*\\."},

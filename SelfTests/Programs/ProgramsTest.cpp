@@ -218,6 +218,19 @@ TEST(Scripts, refuseOptionsInOneSentence) {
     EXPECT_GE(count, 5);
 }
 
+/// Of run-tests.sh and build-on.sh: also where a command in the middle of a function fails.
+TEST(Scripts, endAtTheFirstStageThatFails) {
+    const Result result =
+        run("bash -c 'set -euo pipefail; source " + (source / "Tools/time-stages.sh").string() +
+            "; broken() { sh -c \"exit 3\"; echo beyond; }; stage first true; "
+            "stage second broken; stage third true'");
+    EXPECT_EQ(result.exitCode, 3);
+    for (const char* part : {"== first\n", "== second\n", "  first\n", "  second: failed, exit code 3\n"})
+        EXPECT_NE(result.output.find(part), std::string::npos) << result.output;
+    for (const char* part : {"beyond", "third"})
+        EXPECT_EQ(result.output.find(part), std::string::npos) << result.output;
+}
+
 /// What CLI11 would take as 0, 1.8e19 or octal.
 TEST(Programs, refuseWhatIsNoNumber) {
     const std::string drum = drivers + "/RotatingDrum/RotatingDrum ", bridge = tools + "/bridge-force ";

@@ -37,6 +37,17 @@ struct Box : scenes::SettlingBox<Dry> {
     std::function<void(Box&)> hook;
 };
 
+/// What is thrown, whatever its kind; empty if nothing is.
+template <class Function>
+std::string told(Function&& function) {
+    try {
+        function();
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+    return {};
+}
+
 using Change = std::function<void(Box&)>;
 
 /// Runs on three ranks, on one of which a change is made at set-up, or after 20 steps. Returns what each of
@@ -45,12 +56,12 @@ std::string sentenceOf(
     const Change& atSetUp, const Change& inHook = {},
     const std::function<void(Box&, bool)>& run = [](Box& box, bool) { box.runSteps(400); }) {
     constexpr std::size_t ranks = 3, other = 1;
-    std::vector<std::string> told(ranks);
+    std::vector<std::string> sentences(ranks);
     std::string outside;
-    outside = support::refusal([&] {
+    outside = told([&] {
         VirtualRanks(ranks).run([&](Exchange& exchange) {
             const bool isOther = exchange.rank() == other;
-            told[exchange.rank()] = support::refusal([&] {
+            sentences[exchange.rank()] = told([&] {
                 Box box;
                 if (isOther && atSetUp) atSetUp(box);
                 if (inHook)
@@ -63,8 +74,8 @@ std::string sentenceOf(
         });
     });
     EXPECT_EQ(outside, "");
-    for (const std::string& one : told) EXPECT_EQ(one, told[0]);
-    return told[0];
+    for (const std::string& one : sentences) EXPECT_EQ(one, sentences[0]);
+    return sentences[0];
 }
 
 void expectTold(const std::string& sentence, std::initializer_list<std::string_view> parts) {
@@ -105,11 +116,11 @@ TEST(Disagreement, ofTheSetUpIsNamed) {
                    GrainReference grain = box.particleHandler.getObject(7);
                    grain.setRadius(0.999 * grain.getRadius());
                }),
-               {where, "particle 7: radius is ", ranks, " m on rank 1"});
+               {where, "particle 7/radius is ", ranks, " m on rank 1"});
     expectTold(sentenceOf([](Box& box) {
                    box.particleHandler.getObject(7).setVelocity({0, 0, 0.123});
                }),
-               {where, "particle 7: velocity is ", "(0, 0, 0.123) m/s on rank 1"});
+               {where, "particle 7/velocity is ", "(0, 0, 0.123) m/s on rank 1"});
     expectTold(sentenceOf([](Box& box) { box.speciesHandler.getObject(0)->setStiffness(123); }),
                {where, "stiffness is ", "123 N/m on rank 1"});
     expectTold(sentenceOf([](Box& box) {
@@ -154,7 +165,7 @@ TEST(Disagreement, ofHooksIsNamed) {
 
 // The step is refused on the rank that changes it; the others end with it.
 TEST(Disagreement, ofTheTimeStepInAHookIsRefused) {
-    std::string told = support::refusal([] {
+    const std::string sentence = told([] {
         VirtualRanks(3).run([](Exchange& exchange) {
             Box box;
             if (exchange.rank() == 1)
@@ -165,7 +176,7 @@ TEST(Disagreement, ofTheTimeStepInAHookIsRefused) {
             box.runSteps(400);
         });
     });
-    expectTold(told, {"time step", "gather()"});
+    expectTold(sentence, {"time step", "gather()"});
 }
 
 TEST(Disagreement, ofPartsOfTheRunIsNamed) {
@@ -190,7 +201,7 @@ TEST(Disagreement, ofPartsOfTheRunIsNamed) {
                {"the ranks do not agree: the number of particles is"});
     expectTold(
         sentenceOf({}, {}, between([](Box& box) { box.particleHandler.getObject(5).setRadius(0.9e-3); })),
-        {"the ranks do not agree: particle 5: radius is "});
+        {"the ranks do not agree: particle 5/radius is "});
     expectTold(sentenceOf({}, {}, between([](Box& box) { box.wallHandler.removeObject(0); })),
                {"the ranks do not agree: walls/0"});
     expectTold(sentenceOf({}, {}, between([](Box& box) { box.setTimeStep(0.9 * box.getTimeStep()); })),

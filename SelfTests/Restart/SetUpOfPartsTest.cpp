@@ -24,13 +24,14 @@ namespace {
 
 using resumed::Change;
 using resumed::expectRefusals;
-using S = LinearViscoelasticSpecies;
+using S = LinearViscoelasticSlidingFrictionSpecies;
 
 /// A few grains that do not touch.
 struct FewGrains : Simulation<S> {
     FewGrains() {
         S species;
         species.setDensity(2500), species.setStiffness(100), species.setDissipation(1e-3);
+        species.setSlidingStiffness(30), species.setSlidingFrictionCoefficient(0.5);
         glass = speciesHandler.copyAndAddObject(species);
         SphericalParticle grain;
         grain.setSpecies(glass), grain.setRadius(1e-3);
@@ -39,7 +40,7 @@ struct FewGrains : Simulation<S> {
             grain.setVelocity({0.01, 0.002 * k, 0});
             particleHandler.copyAndAddObject(grain);
         }
-        setTimeStep(1e-5);
+        setTimeStep(2e-6);
         setQuiet();
     }
     S* glass;
@@ -101,16 +102,17 @@ TEST(SetUpOfParts, heat) {
     };
     using H = HeatSettings;
     expectRefusals<H>(
-        make, {{"parts/heat/species0/conductivity is 1 W/(m K) in the file and 2 W/(m K) in the scene",
-                [](H& s) { s.material.conductivity = 2; }},
-               {"parts/heat/species0/heatCapacity", [](H& s) { s.material.heatCapacity = 900; }},
-               {"parts/heat/wall0/temperature", [](H& s) { s.wall = 300; }},
-               {"parts/heat/wall0/conductivity", [](H& s) { s.ofWall = 0.6; }},
-               {"parts/heat/wall0/conductivity", [](H& s) { s.ofWall.reset(); }},
-               {"parts/heat/heldWalls", [](H& s) { s.holdsWall = false; }},
-               {"parts/heat/conduction", [](H& s) { s.law = static_cast<Conduction>(1); }},
-               {"parts/heat/radiusFactor", [](H& s) { s.softening = 0.1; }},
-               {"parts/heat/heatByContacts", [](H& s) { s.heatsByContacts = true; }}});
+        make,
+        {{"parts/heat/species0/conductivity is 1 W/(m K) in the file and 2 W/(m K) in the scene",
+          [](H& s) { s.material.conductivity = 2; }},
+         {"parts/heat/species0/heatCapacity", [](H& s) { s.material.heatCapacity = 900; }},
+         {"parts/heat/wall0/temperature", [](H& s) { s.wall = 300; }},
+         {"parts/heat/wall0/conductivity", [](H& s) { s.ofWall = 0.6; }},
+         {"parts/heat/wall0/conductivity", [](H& s) { s.ofWall.reset(); }},
+         {"parts/heat/heldWalls", [](H& s) { s.holdsWall = false; }},
+         {"parts/heat/conduction", [](H& s) { s.law = static_cast<Conduction>(1), s.holdsWall = false; }},
+         {"parts/heat/radiusFactor", [](H& s) { s.softening = 0.1; }},
+         {"parts/heat/heatByContacts", [](H& s) { s.heatsByContacts = true; }}});
 }
 
 struct BondSettings {
@@ -392,8 +394,8 @@ TEST(SetUpOfParts, partsOfMercury) {
             boundaryHandler.copyAndAddObject(insertion);
             FluxBoundary plane;
             plane.set({0, 0, 1}, 0);
-            plane.setPrescribedDistance([at = s.fluxAt](double) { return at; });
-            boundaryHandler.copyAndAddObject(plane);
+            boundaryHandler.copyAndAddObject(plane)->setPrescribedDistance(
+                [at = s.fluxAt](double) { return at; });
             grain.setRadius(0.002), grain.setPosition({0.05, 0.05, 0.2}), grain.fixParticle();
             setPrescribedVelocity(particleHandler.copyAndAddObject(grain),
                                   [speed = s.path](double) { return Vec3D(speed, 0, 0); });

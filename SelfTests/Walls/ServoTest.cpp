@@ -139,9 +139,10 @@ TEST(ServoWall, bringsDampedColumnsToTheirForce) {
         double rest = 0;
         looks(2 * ofGrains, [&](double off) { rest = std::max(rest, std::abs(off)); });
         EXPECT_LT(rest, 0.01) << n << " " << row.ratio << " " << row.time;
+        if (row.time < 20) continue;
         // The time constant is (L + 1) time + c/k where the grains follow (shared/data/drives-and-shapes/
         // servo_column.csv: 0.24 % shorter with their masses).
-        if (row.time >= 20) EXPECT_NEAR(toE, ofServo, 0.02 * ofServo) << n;
+        EXPECT_NEAR(toE, ofServo, 0.02 * ofServo) << n;
     }
 }
 
