@@ -54,14 +54,16 @@ double fallingSpeed(PressureModel model, std::size_t shares) {
     return -bed.particleHandler.getObject(20).getVelocity().z();
 }
 
-// In a homogeneous suspension both models give the same motion, and the same at half the step: after 30 times
-// the time of the drag 1e-13 of the start is left. (Buoyancy counted twice, or a lost porosity: half of the
-// speed.)
+// In a homogeneous suspension both models give the same motion, after 30 times the time of the drag, when
+// 1e-13 of the start is left, and the same at half the step, but for the ends of the suspension, which have
+// come another way of first order in the step, and which the middle feels by 1e-8. (With the weight of a step
+// beside the drag of before it they differed by g h, 1e-2 of the speed. Buoyancy counted twice, or a lost
+// porosity: half of the speed.)
 TEST(Column, movesAlikeInBothModels) {
     const double speed = fallingSpeed(PressureModel::A, 1);
     EXPECT_GT(speed, 1e-3);
     EXPECT_NEAR(fallingSpeed(PressureModel::B, 1) / speed, 1, 1e-9);
-    EXPECT_NEAR(fallingSpeed(PressureModel::A, 2) / speed, 1, 1e-9);
+    EXPECT_NEAR(fallingSpeed(PressureModel::A, 2) / speed, 1, 1e-6);
 }
 
 // The floor carries the rest of the weight: nothing where the drag of the law is the weight. From two speeds

@@ -268,7 +268,7 @@ public:
     std::vector<double> asked{};  // s, when
     Driven(double ofForce, double step, const Integrator& scheme) : frequency(ofForce) {
         LinearViscoelasticSpecies species;
-        species.setDensity(2e-6 / sphereMass(1e-4, 1)), species.setStiffness(10);
+        species.setDensity(2e-6 / sphereMass(1e-4, 1)), species.setStiffness(0.1);
         SphericalParticle grain(speciesHandler.copyAndAddObject(species));
         grain.setRadius(1e-4);
         particleHandler.copyAndAddObject(grain);
@@ -334,7 +334,7 @@ TEST(MercuryForces, ofAGravityThatChangesAreOfSecondOrderByItsValueInTheMiddle) 
     const auto ratio = [&](double share) {
         std::array<double, 2> error{};
         for (std::size_t k = 0; k < error.size(); ++k) {
-            Shaken scene(5e-4 / std::pow(2, k), share);
+            Shaken scene(1e-4 / std::pow(2, k), share);
             scene.setTimeMax(t);
             scene.solve();
             error[k] = std::abs(scene.particleHandler.getObject(0).getPosition().x() - exact);
