@@ -88,7 +88,7 @@ struct Bed : Simulation<Rough> {
                 wallHandler.copyAndAddObject(wall);
             }
         setGravity({0, 0, -9.81});
-        setTimeStep(5e-6);
+        setTimeStep(2e-6);
         setQuiet();
         if (!filled) return;
         for (const ClumpTemplate& shape : shapes()) {
