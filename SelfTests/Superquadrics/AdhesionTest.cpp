@@ -111,7 +111,7 @@ TEST(SuperquadricForceApart, isThatOfDMTByTheirRadii) {
 
 // What attracts has the direction of the normal, not that of the line of centres: a tilted ellipsoid below a
 // plane. The point of the surface with the normal n is p = A^2 n / h, h^2 = n.A^2 n, with Gauss' radius a b c
-// / h^2 there, and the contact point is half the gap farther along n.
+// / h^2 there, and the contact point is on the plane, the gap farther along n.
 TEST(SuperquadricForceApart, isAlongTheNormalInStresses) {
     const double a = 1e-3, c = 1.5e-3, gap = surfaceDistance, volume = 8e-9;
     const Eigen::Quaterniond tilt = turnedBy(0.6, {1, 2, 0});
@@ -120,7 +120,7 @@ TEST(SuperquadricForceApart, isAlongTheNormalInStresses) {
                               axes * Eigen::Vector3d(a * a, a * a, c * c).asDiagonal() * axes.transpose();
     const double h = std::sqrt(squares(2, 2)), radius = a * a * c / (h * h);
     const double pull = 2 * pi * work * radius * (0.25 - 0.01) / 0.99;
-    const Eigen::Vector3d branch = -squares.col(2) / h - 0.5 * gap * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d branch = -squares.col(2) / h - gap * Eigen::Vector3d::UnitZ();
     Eigen::Matrix3d expected = Eigen::Matrix3d::Zero();
     expected.row(2) = pull / volume * branch.transpose();
     ASSERT_GT(std::abs(expected(2, 0)), 0.1 * std::abs(expected(2, 2)));
