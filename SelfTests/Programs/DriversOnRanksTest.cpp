@@ -49,9 +49,9 @@ protected:
     /// @param start what starts a program on a number of ranks; empty: one process
     [[nodiscard]] ProgramResult runIn(const std::string& name, const std::string& start) const {
         fs::create_directory(folder.path() / name);
-        return run(fmt::format("cd {} && {} {}/{}/{} {} --output out 2>log", (folder.path() / name).string(),
-                               start, driverRuns::drivers, GetParam(), GetParam(),
-                               driverRuns::shortOptionsOf(GetParam())));
+        return run(fmt::format("(cd {} && {} {}/{}/{} {} --output out 2>log)",
+                               (folder.path() / name).string(), start, driverRuns::drivers, GetParam(),
+                               GetParam(), driverRuns::shortOptionsOf(GetParam())));
     }
     [[nodiscard]] std::string logOf(const std::string& name) const {
         return contentOf(folder.path() / name / "log");
