@@ -12,6 +12,8 @@
 
 namespace pendular {
 
+static bool isHeld(const TranslationRecord& grain) { return grain.inverseMass == 0 && grain.radius > 0; }
+
 double ContactSystem::renew(Grains& grains, bool hasNewLaws) {
     double stored = 0;
     const ListedOfHeld asked = askedOfHeld();
@@ -151,6 +153,18 @@ std::vector<bool> ContactSystem::contactsOf(const ChangedBodies& changed) const 
     return found;
 }
 
+/// Contacts of held bodies that may have been listed just now, and overlap since long: those that have not
+/// touched. They alone are new by that, and none between a held body and a free one.
+static void addUntouchedOfHeld(const ContactStore& contacts, const ParticleStore& grains,
+                               std::vector<bool>& found) {
+    contacts.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+        if (contacts.touches(contact) || contacts.isBridged(contact)) return;
+        if (isHeld(grains.translation[contacts.firstOf(contact)]) &&
+            (bucket.wall >= 0 || isHeld(grains.translation[contacts.secondOf(contact)])))
+            found[contact] = true;
+    });
+}
+
 // Their forces
 // --------------------------------------------------------------------------------------------
 
@@ -245,7 +259,8 @@ void ContactSystem::computeAmong(const Grains& grains, const std::vector<bool>& 
 
 ChangedContacts ContactSystem::computeChanged(Grains& grains, const ChangedBodies& changed, double step,
                                               ContactTiming timing) {
-    const std::vector<bool> isChanged = contactsOf(changed);
+    std::vector<bool> isChanged = contactsOf(changed);
+    if (!heldMasses.empty()) addUntouchedOfHeld(contacts, grains, isChanged);
     changedPairs.clear(), changedWalls.clear();
     ChangedContacts result;
     if (std::ranges::find(isChanged, true) == isChanged.end()) return result;
@@ -308,8 +323,6 @@ ListedOfHeld ContactSystem::askedOfHeld() const {
             asked.walls[w] = asked.pairs || needsHeld(wall);
     return asked;
 }
-
-static bool isHeld(const TranslationRecord& grain) { return grain.inverseMass == 0 && grain.radius > 0; }
 
 bool ContactSystem::needsOtherHeld(const Grains& grains) {
     // All or none does not change by itself, and walls that are added or removed ask for a list anyway.

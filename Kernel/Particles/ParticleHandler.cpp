@@ -8,6 +8,7 @@
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Particles/GrainSpecies.h"
 #include "Kernel/Particles/OwnSpecies.h"
+#include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/Particles/Resolution.h"
 
 namespace pendular {
@@ -134,29 +135,36 @@ void GrainReference::setAngularVelocity(const Vec3D& spin) {
     handler->requireHeld(fmt::format("particle {}", number), {0, 0, 0}, value);
     if (handler->store().hasSpin) handler->store().rotation[place()].spin = value;
 }
+/// @param isOther whether the grain has another value than before; if not, contacts are listed again, and
+/// keep their forces
+static void noteIn(std::vector<std::uint32_t>& changed, std::uint32_t identity, bool isOther) {
+    changed.push_back(isOther ? identity : ParticleHandler::Inside::givenWhatItHas);
+}
+
 void GrainReference::setPosition(const Vec3D& position) {
     requireOwnBody("position");
     const Vector<double> place = finite(number, "position", position, "m");
     requireResolved(fmt::format("particle {}", number), "position", place, getRadius());
+    const bool isThere = record().position == place;
     record().position = place;
-    handler->changes.placed.push_back(number);
+    noteIn(handler->changes.placed, number, !isThere);
 }
 void GrainReference::setRadius(double radius) {
     requireOwnBody("radius");
     checkValue(fmt::format("particle {}", number), "radius", radius, "m", radiusRange);
     requireResolved(fmt::format("particle {}", number), "position", record().position, radius);
-    const bool grows = radius > getRadius();
-    record().radius = radius;
+    const double before = std::exchange(record().radius, radius);
     handler->renewMass(place());
-    (grows ? handler->changes.placed : handler->changes.altered).push_back(number);
+    noteIn(radius > before ? handler->changes.placed : handler->changes.altered, number, radius != before);
 }
 void GrainReference::setSpeciesIndex(int index, const SpeciesOwner* owner) {
     requireOwnBody("species");
     handler->requireOwnSpecies(fmt::format("particle {}", number), index, owner);
     static_cast<void>(handler->massOf(getRadius(), index));  // throws if there is no such species
-    handler->store().species[place()] = static_cast<std::uint16_t>(index);
+    const auto own = static_cast<std::uint16_t>(index);
+    const bool isOther = std::exchange(handler->store().species[place()], own) != own;
     handler->renewMass(place());
-    handler->changes.altered.push_back(number);
+    noteIn(handler->changes.altered, number, isOther);
 }
 void GrainReference::fixParticle(bool fix) {
     requireOwnBody("being held");
@@ -169,6 +177,7 @@ void GrainReference::setFixed(bool fix) {
     const std::uint32_t at = place();
     const bool isLetGo = isFixed() && !fix;
     ParticleStore& grains = handler->store();
+    const bool isOther = isFixed() != fix || grains.heldAt(at).any();
     grains.setHeldAt(at, {});
     setInertia(grains, at, fix ? GrainInertia{0, 0} : handler->inertiaAt(at));
     if (fix) {  // it keeps no motion, and no force of its own
@@ -177,7 +186,7 @@ void GrainReference::setFixed(bool fix) {
         if (!grains.earlier.empty()) grains.earlier[at] = {};
     }
     if (isLetGo) setAcceleration(grains, at, handler->gravity);
-    (isLetGo ? handler->changes.placed : handler->changes.altered).push_back(number);
+    noteIn(isLetGo ? handler->changes.placed : handler->changes.altered, number, isOther);
 }
 
 void GrainReference::setHeldAxes(const HeldAxes& axes) {
@@ -196,7 +205,7 @@ void GrainReference::setHeldAxes(const HeldAxes& axes) {
     followFreely(grains, at);
     grains.translation[at].velocity = held.partAlong(grains.translation[at].velocity);
     if (grains.hasSpin) grains.rotation[at].spin = held.partAbout(grains.rotation[at].spin);
-    handler->changes.altered.push_back(number);
+    noteIn(handler->changes.altered, number, held.byte() != before.byte());
 }
 HeldAxes GrainReference::getHeldAxes() const {
     const ParticleStore& grains = handler->store();

@@ -78,6 +78,9 @@ public:
     static void callBeforeRemoval(ParticleHandler& of, std::function<void(std::uint32_t)> function) {
         of.beforeRemoval = std::move(function);
     }
+    /// In GrainChanges, instead of the identity of a grain that was given a value that it had: contacts are
+    /// listed again, and none of them has changed.
+    static constexpr std::uint32_t givenWhatItHas = PlaceIndex::none;
     /// What has changed since this was called last.
     [[nodiscard]] static GrainChanges takeChanges(ParticleHandler& of) {
         return std::exchange(of.changes, {});

@@ -36,6 +36,13 @@ void Scene::Inside::refuseOtherMemory() const {
             "no others have; add it before the run begins.");
 }
 
+/// Takes grains out that were given what they had; whether there were any.
+static bool takeUnchanged(GrainChanges& changes) {
+    return std::erase(changes.placed, ParticleHandler::Inside::givenWhatItHas) +
+               std::erase(changes.altered, ParticleHandler::Inside::givenWhatItHas) >
+           0;
+}
+
 /// Whether grains were joined only to bodies that are new themselves, and within what the checks know because
 /// an inlet brings such: then they are new grains, and nothing that was there has changed.
 static bool areKnownNewBodies(const GrainChanges& changes, const ParticleStore& grains,
@@ -80,14 +87,16 @@ void Scene::Inside::takeOverChanges() {
         if (!newLaws && !changedWalls && !newStep && !lastBodyWent && !newHeld &&
             !ParticleHandler::Inside::hasChanges(particles))
             return;
-        const GrainChanges changes = ParticleHandler::Inside::takeChanges(particles);
+        GrainChanges changes = ParticleHandler::Inside::takeChanges(particles);
         if (isDistributed()) {
             if (newLaws || changedWalls || newStep) refuseForRanks(changes, true);
             return takeOverOnRanks(changes, lastBodyWent);
         }
+        const bool listsAgain = takeUnchanged(changes);
         const bool bodiesCame = scene.inletHandler.bringBodies() &&
                                 areKnownNewBodies(changes, context.grains(), checkedSizes, bodies.widest()),
-                   changedGrains = !changes.placed.empty() || (!changes.altered.empty() && !bodiesCame),
+                   changedGrains =
+                       listsAgain || !changes.placed.empty() || (!changes.altered.empty() && !bodiesCame),
                    newBodies = changedWalls || changedGrains || newHeld;
         if (newLaws) {
             refuseOtherMemory();
@@ -115,7 +124,7 @@ void Scene::Inside::takeOverChanges() {
             return;
         }
         refuseOverlapsOf(changes, firstNewWall);
-        computeChanged(changes, firstNewWall, newHeld);
+        computeChanged(changes, firstNewWall);
     } catch (const InputError& refusal) {
         throw RunError(refusal.what());
     }
@@ -192,13 +201,11 @@ void Scene::Inside::renewAccelerations(const GrainChanges& changes) {
     parts.addAccelerations(context, places);
 }
 
-void Scene::Inside::computeChanged(const GrainChanges& changes, int firstNewWall, bool heldAreNew) {
+void Scene::Inside::computeChanged(const GrainChanges& changes, int firstNewWall) {
     ParticleStore& grains = scene.particleHandler.store();
     ChangedBodies changed{std::vector<bool>(grains.size()), firstNewWall};
     for (const auto* identities : {&changes.added, &changes.placed, &changes.altered})
         for (const std::uint32_t identity : *identities) changed.grains[grains.place[identity]] = true;
-    for (std::size_t place = 0; heldAreNew && place < grains.size(); ++place)
-        if (grains.translation[place].inverseMass == 0) changed.grains[place] = true;
     const ChangedContacts found =
         contacts.computeChanged(grains, changed, stepLength(), contactScheme(context).contacts);
     bookEnergyOfEnded(-found.given);

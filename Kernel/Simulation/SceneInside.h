@@ -189,8 +189,7 @@ private:
     [[nodiscard]] bool isNewToChecks(std::span<const std::uint32_t> added) const;
     void renewAccelerations(const GrainChanges& changes);
     /// Contacts that are changed have the forces of what they are now, and their energy is the driver's.
-    /// @param heldAreNew contacts of held bodies are listed that were not
-    void computeChanged(const GrainChanges& changes, int firstNewWall, bool heldAreNew);
+    void computeChanged(const GrainChanges& changes, int firstNewWall);
     void refuseOverlapsOf(const GrainChanges& changes, int firstNewWall) const;
     void refuseOtherMemory() const;
 

@@ -5,7 +5,10 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <utility>
+#include <vector>
 
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Species/Laws.h"
 #include "SelfTests/Scenes/HookedGrains.h"
 
@@ -396,6 +399,52 @@ TEST(GivenByChanges, isTheSameForAnyNumberOfThreads) {
     const std::vector<double> one = after(1, true), without = after(1, false);
     for (const int threads : {2, 7}) EXPECT_EQ(after(threads, true), one) << threads;
     EXPECT_TRUE(std::equal(without.begin(), without.end(), one.begin()));
+}
+
+// Who sets values that are there already changes nothing, in no bit: contacts are listed again, and no more.
+TEST(GivenByChanges, ofValuesThatAreThere) {
+    using Hook = std::function<void(Block&)>;
+    const auto after = [](const Hook& hook) {
+        Block block(1);
+        block.acceptOverlaps(0.2);
+        block.particleHandler.getObject(3).setHeldAxes({.x = true});
+        block.particleHandler.getObject(40).fixParticle();
+        block.run(5);
+        for (int k = 0; k < 60; ++k) {
+            if (hook && k % 2 == 0) hook(block);
+            block.step();
+        }
+        std::vector<double> all;
+        for (const GrainReference grain : block.particleHandler)
+            for (const Vec3D& each : {grain.getPosition(), grain.getVelocity(), grain.getAngularVelocity()})
+                all.insert(all.end(), each.begin(), each.end());
+        EXPECT_EQ(block.energyLedger().driver, 0);
+        return std::pair(all, block.contacts().rebuildCount());
+    };
+    const auto ofAll = [](auto&& set) {
+        return [set](Block& block) {
+            for (GrainReference grain : block.particleHandler) set(grain);
+        };
+    };
+    const std::map<std::string, Hook> hooks{
+        {"radius", ofAll([](GrainReference& grain) { grain.setRadius(grain.getRadius()); })},
+        {"position", ofAll([](GrainReference& grain) { grain.setPosition(grain.getPosition()); })},
+        {"species",
+         [](Block& b) { b.particleHandler.getObject(50).setSpecies(b.speciesHandler.getObject(0)); }},
+        {"held", ofAll([](GrainReference& grain) { grain.setHeldAxes(grain.getHeldAxes()); })},
+        {"fixed", [](Block& b) { b.particleHandler.getObject(40).fixParticle(); }},
+        {"a species that nothing is of",
+         [](Block& b) { b.speciesHandler.copyAndAddObject(Block::material()); }},
+        {"a wall that nothing touches", [](Block& b) {
+             b.wallHandler.copyAndAddObject(
+                 InfiniteWall({0, 0, -1}, {0, 0, -1}, b.speciesHandler.getObject(0)));
+         }}};
+    const auto [bits, lists] = after({});
+    for (const auto& [name, hook] : hooks) {
+        const auto [same, more] = after(hook);
+        EXPECT_EQ(same, bits) << name;
+        EXPECT_GE(more, lists + 20) << name;
+    }
 }
 
 }  // namespace
