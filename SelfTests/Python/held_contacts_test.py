@@ -33,6 +33,7 @@ def test_held_grains_have_a_force_where_it_is_asked_for():
 
 def test_a_warning_tells_of_contacts_that_are_not_listed(capfd):
     scene = held_pair()
+    scene.quiet = False
     scene.run(steps=2)
     assert not scene.contact_force.any()
     said = "".join(capfd.readouterr())
@@ -92,4 +93,4 @@ def test_what_a_stiffness_gives():
     scene.add_grains(scene.glass, [[0, 0, 0], [2 * RADIUS - DEEP, 0, 0]], RADIUS)
     scene.run(steps=1)
     stored = STIFFNESS * scene.contacts()["overlap_m"][0]**2 / 2
-    booked(scene, lambda: setattr(scene.glass, "stiffness", 2 * STIFFNESS), stored)
+    booked(scene, lambda: scene.glass.set(stiffness=2 * STIFFNESS), stored)

@@ -98,7 +98,7 @@ def test_softening_is_for_hertzs_contact_radius():
     scene.conduct_heat(300, softening=0.01)
     scene.set_heat_material(stone, conductivity=1, heat_capacity=800)
     scene.time_step = 1e-8
-    with pytest.raises(pendular.InputError, match="softening = 0.01 .* LinearViscoelasticSpecies"):
+    with pytest.raises(pendular.InputError, match="softening = 0.01 .* LinearViscoelastic, "):
         scene.run(steps=1)
 
 

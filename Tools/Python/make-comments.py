@@ -26,6 +26,7 @@ WORDS = [
     (r"\bfinish_run\(\)", "finish()"),
     (r"\bshear_flow_at\(\)", "flow_at()"),
     (r"With all axes it is fix_particle\(\)", "'all' holds it altogether"),
+    (r"\bfix_particle\(\)", "fixed=True"),
     (r"\bset_time_step\(\)", "time_step"),
     (r"\bEnergyLedger::lost\(\)", "what is lost in energy()"),
     (r"Throws as get_force\(\)", "Raises as force"),
