@@ -69,7 +69,8 @@ TEST_P(DriversOnRanks, haveTheResultsOfOneProcess) {
     for (const int ranks : {2, 3}) {
         SCOPED_TRACE(fmt::format("{} ranks", ranks));
         const std::string own = std::to_string(ranks);
-        const ProgramResult shared = runIn(own, (GetParam() == ofOneGrain ? "" : cutsWander) + onRanks(ranks, 300));
+        const ProgramResult shared =
+            runIn(own, (GetParam() == ofOneGrain ? "" : cutsWander) + onRanks(ranks, 300));
         if (refused != notShared.end()) {
             EXPECT_NE(shared.exitCode, 0);
             EXPECT_NE(logOf(own).find(refused->second), std::string::npos) << logOf(own);
