@@ -6,6 +6,7 @@
 #include "Kernel/Contacts/GrainMasses.h"
 #include "Kernel/Contacts/HeldMasses.h"
 #include "Kernel/Math/ExactSum.h"
+#include "Kernel/Species/SetValues.h"
 #include "Kernel/Walls/WornWall.h"
 
 // What changes of bodies and laws between two steps do to contacts.
@@ -113,24 +114,28 @@ void ContactSystem::changeForce(Grains& grains, const Bucket& bucket, std::uint3
 // Which contacts a change concerns
 // --------------------------------------------------------------------------------------------
 
-/// Marks the pairs of species whose laws have other values than when this was called last.
+/// Marks the pairs of species whose laws have other values than when this was called last: those of one of
+/// the two species, or those that the driver has given the pair. (A pair that cannot touch may have no laws.)
 void ContactSystem::noteChangedLaws() {
     const std::size_t count = species->speciesCount();
     std::vector<std::vector<double>> now(count * count);
-    for (std::size_t a = 0; a < count; ++a)
-        for (std::size_t b = 0; b < count; ++b) {
-            const int first = static_cast<int>(a), second = static_cast<int>(b);
-            for (const FieldValue& field : species->ofPair(first, second).fields(first, second))
-                now[a * count + b].push_back(field.value);
-        }
+    for (const SetValues& set : species->setValues()) {
+        const auto first = static_cast<std::size_t>(set.first), second = static_cast<std::size_t>(set.second);
+        std::vector<double>& values = now[first * count + second];
+        for (const NamedField& field : set.fields) values.push_back(*field.value);
+        now[second * count + first] = values;
+    }
     const auto areSame = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
     std::size_t before = 0;  // species
     while (before * before < lawValues.size()) ++before;
+    const auto areOthers = [&](std::size_t a, std::size_t b) {
+        return a >= before || b >= before ||
+               !std::ranges::equal(now[a * count + b], lawValues[a * before + b], areSame);
+    };
     changedPairs.assign(now.size(), true);
-    for (std::size_t a = 0; a < std::min(before, count); ++a)
-        for (std::size_t b = 0; b < std::min(before, count); ++b)
-            changedPairs[a * count + b] =
-                !std::ranges::equal(now[a * count + b], lawValues[a * before + b], areSame);
+    for (std::size_t a = 0; a < count; ++a)
+        for (std::size_t b = 0; b < count; ++b)
+            changedPairs[a * count + b] = areOthers(a, a) || areOthers(b, b) || areOthers(a, b);
     lawValues = std::move(now);
 }
 
