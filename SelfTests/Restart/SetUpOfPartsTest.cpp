@@ -27,23 +27,40 @@ using resumed::expectRefusals;
 using S = LinearViscoelasticSlidingFrictionSpecies;
 
 /// A few grains that do not touch.
-struct FewGrains : Simulation<S> {
-    FewGrains() {
-        S species;
-        species.setDensity(2500), species.setStiffness(100), species.setDissipation(1e-3);
-        species.setSlidingStiffness(30), species.setSlidingFrictionCoefficient(0.5);
-        glass = speciesHandler.copyAndAddObject(species);
+template <class Species>
+struct GrainsOf : Simulation<Species> {
+    explicit GrainsOf(const Species& species) : glass(this->speciesHandler.copyAndAddObject(species)) {
         SphericalParticle grain;
         grain.setSpecies(glass), grain.setRadius(1e-3);
         for (int k = 0; k < 4; ++k) {
             grain.setPosition({0.003 + 0.004 * k, 0.005, 0.005 + 0.002 * k});
             grain.setVelocity({0.01, 0.002 * k, 0});
-            particleHandler.copyAndAddObject(grain);
+            this->particleHandler.copyAndAddObject(grain);
         }
-        setTimeStep(2e-6);
-        setQuiet();
+        this->setTimeStep(2e-6);
+        this->setQuiet();
     }
-    S* glass;
+    Species* glass;
+};
+
+struct FewGrains : GrainsOf<S> {
+    FewGrains() : GrainsOf(linear()) {}
+    static S linear() {
+        S species;
+        species.setDensity(2500), species.setStiffness(100), species.setDissipation(1e-3);
+        species.setSlidingStiffness(30), species.setSlidingFrictionCoefficient(0.5);
+        return species;
+    }
+};
+
+/// Whose contact radius for heat goes with the modulus.
+struct HertzianGrains : GrainsOf<HertzianViscoelasticSpecies> {
+    HertzianGrains() : GrainsOf(hertzian()) {}
+    static HertzianViscoelasticSpecies hertzian() {
+        HertzianViscoelasticSpecies species;
+        species.setDensity(2500), species.setEffectiveElasticModulusAndRestitutionCoefficient(1e6, 0.5);
+        return species;
+    }
 };
 
 struct FluidSettings {
@@ -89,7 +106,7 @@ struct HeatSettings {
 
 TEST(SetUpOfParts, heat) {
     const auto make = [](const HeatSettings& s) {
-        auto scene = std::make_unique<FewGrains>();
+        auto scene = std::make_unique<HertzianGrains>();
         scene->keepEnergyLedger();
         InfiniteWall floor;
         floor.set({0, 0, -1}, {0, 0, 0}), floor.setSpecies(scene->glass);
