@@ -295,9 +295,10 @@ ChangedContacts ContactSystem::computeChanged(Grains& grains, const ChangedBodie
     computeAmong(grains, isChanged, step, timing);
     forEachChanged(1);
     forEachRecord([&](const Bucket& bucket, std::uint32_t contact, EnergyRecord& record) {
+        if (!record.now.acts() && !record.last.acts()) return;  // listed only: nothing is kept of it
         if (bucket.wall >= 0) {
             showWallMotion(grains, bucket, contact, record);
-            record.lastWall = bucket.wall;
+            if (samplesPairs) record.lastWall = bucket.wall;  // as the account of the energy does
         }
         record.last = record.now;
         given.add(record.stored());

@@ -574,7 +574,7 @@ TEST(Drivers, refuseWrongInputInOneSentence) {
     expectOneSentence(
         run(hopper + "--hopper-diameter-m 45"),
         "in a hopper of 45 m would be about 4e+08 grains; it must be at most 1e+06, or the number "
-        "of grains, 9000");
+        "of grains, 12000");
     const TestFolder clogged;
     expectOneSentence(
         run(hopper +

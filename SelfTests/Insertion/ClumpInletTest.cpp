@@ -157,7 +157,8 @@ TEST(ClumpInlet, givesTheSameBitsForAnyThreadsAndThroughRestarts) {
         other.restartFrom(folder.path() / "half.h5");
         const std::string text = refusal([&] { other.initialise(); });
         EXPECT_TRUE(isOneSentence(text) &&
-                    contains(text, isGrain ? "inlets/0/kinds" : "inlets/0/kind0/volume"))
+                    contains(text, isGrain ? "inlets/0/kind0/kind is clump in the file and grain in the scene"
+                                           : "inlets/0/kind0/spheres is ("))
             << text;
     }
 }
