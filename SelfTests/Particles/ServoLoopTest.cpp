@@ -84,7 +84,8 @@ struct Loop {
 TEST(ServoLoop, ringsEverMoreWhereDashpotsAreNotKnown) {
     for (const auto& [layers, step, gain] :
          {std::tuple{4, 0.02, 0.0952}, {1, 0.1, 0.399}, {4, 0.3, 0.8376}, {1, 0.1, 0.399}}) {
-        const auto radius = [&](double share) {
+        // (clang 14 does not capture bindings.)
+        const auto radius = [layers = layers, step = step, gain = gain](double share) {
             return Loop{.layers = layers,
                         .ratio = 0.1,
                         .step = step,
