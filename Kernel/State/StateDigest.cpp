@@ -33,6 +33,11 @@ std::size_t bytesOf(const TableShape& shape) {
     return shape.rows * shape.columns * each;
 }
 
+/// An empty table or text may have no address.
+void addBytes(WordHash& hash, const void* bytes, std::size_t count) {
+    hash.add(count > 0 ? bytes : "", count);
+}
+
 template <class Number>
 std::string shownNumber(Number number) {
     if constexpr (std::is_floating_point_v<Number>)
@@ -61,17 +66,17 @@ void StateDigest::add(std::string_view group, std::string_view name, std::string
                       const TableShape& shape, const void* numbers) {
     const std::size_t bytes = bytesOf(shape);
     if (bytes > largest) return;
-    if (keep == Keep::HashOnly) return all.add(numbers, bytes);
+    if (keep == Keep::HashOnly) return addBytes(all, numbers, bytes);
     WordHash own;
-    own.add(numbers, bytes);
+    addBytes(own, numbers, bytes);
     all.add(own.value());
     kept.push_back({std::string(group) + std::string(name), shownNumbers(shape, numbers, unit), own.value()});
 }
 
 void StateDigest::add(std::string_view group, std::string_view name, std::string_view text) {
-    if (keep == Keep::HashOnly) return all.add(text.data(), text.size());
+    if (keep == Keep::HashOnly) return addBytes(all, text.data(), text.size());
     WordHash own;
-    own.add(text.data(), text.size());
+    addBytes(own, text.data(), text.size());
     all.add(own.value());
     kept.push_back({std::string(group) + std::string(name), std::string(text), own.value()});
 }
