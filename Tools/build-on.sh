@@ -58,7 +58,7 @@ commands() { inside bash -euo pipefail -c "cd $clone; $(cat)"; }
 make_system() {
     if [[ ! -e $root ]]; then
         if [[ -z $mirror ]] && command -v apt-get >/dev/null; then
-            mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Origin: Debian' 2>/dev/null | head -n 1)
+            mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Origin: Debian' 'Label: Debian' 2>/dev/null | head -n 1)
         fi
         rm -rf --one-file-system "$root.part"
         mkdir -p "$root.part"
@@ -100,6 +100,7 @@ copy_tree() {
     if [[ ! -e $root$clone ]]; then git clone --quiet --no-checkout "$repository" "$root$clone"; fi
     git -C "$root$clone" fetch --quiet "$repository" "$commit"
     git -C "$root$clone" checkout --quiet --force --detach "$commit"
+    rm -f "$root$clone/build/release/CMakeCache.txt"  # with the options of a run before
     git -C "$repository" log --oneline -n 1
 }
 # The first block of a language of a section of README.
@@ -107,6 +108,9 @@ block_of() {  # heading, language
     awk -v heading="## $1" -v begin="\`\`\`$2" '$0 == heading { there = 1 } there && on && /^```$/ { exit }
         there && on { print } there && $0 == begin { on = 1 }' "$repository/README.md"
 }
+
+[[ -n $(block_of "A first simulation" bash) && -n $(block_of "Or in Python" bash) && -n $(block_of "Or in Python" python) ]] ||
+    refuse "README.md has no commands under 'A first simulation' or 'Or in Python'"
 
 first() { block_of "A first simulation" bash | commands; }
 python() {

@@ -221,8 +221,8 @@ inline Discharge discharge(const Hopper& hopper, std::span<const GrainRow> grain
         std::ranges::find_if(result.curve, [&](const CurvePoint& p) { return headAt(p) < leastHead; });
     if (low != result.curve.end() && low->x - begin >= 0.5 * (result.end - begin)) result.end = low->x;
     const auto steady = partOf(result.curve, begin, result.end);
+    result.mean = meanFlow(steady);  // which refuses fewer than two points
     result.head = headAt(steady.back());
-    result.mean = meanFlow(steady);
     if (!(result.mean.flow > 0))
         throw InputError(fmt::format(
             "HopperScene: no grain left the orifice of {:g} m from {:g} s to {:g} s; take one that is wider "

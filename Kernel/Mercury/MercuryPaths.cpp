@@ -33,6 +33,8 @@ void MercuryPaths::setVelocity(const GrainReference& grain, std::function<Vec3D(
 }
 
 void MercuryPaths::compareSetUp(StateArchive& archive, StepContext& scene) {
+    // Those of grains that have gone are in no file.
+    std::erase_if(paths, [&](const auto& path) { return !scene.particles.contains(path.first); });
     archive.same("count", static_cast<std::uint64_t>(paths.size()));
     for (const auto& [identity, path] : paths) {
         const auto& function = path.position ? path.position : path.velocity;

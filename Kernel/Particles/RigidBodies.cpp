@@ -297,9 +297,7 @@ void RigidBodies::visitState(StateArchive& archive, const ParticleStore& grains)
         archive.column<double>("volumes", volumes);
         archive.column<double>("exposed", exposed);
     }
-    // Of older files the shapes' own frames are not known: they count as given along the principal axes.
-    if (archive.isReading()) frames.assign(bodies.size(), Quaternion{});
-    if (archive.isWriting() || archive.holds("frames")) archive.column<double>("frames", frames);
+    archive.column<double>("frames", frames);
     if (archive.isReading()) earlier.clear();
     if (archive.isWriting() ? !earlier.empty() : archive.holds("earlier")) {
         archive.column<double>("earlier", earlier);

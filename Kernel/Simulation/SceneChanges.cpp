@@ -209,7 +209,11 @@ void Scene::Inside::computeChanged(const GrainChanges& changes, int firstNewWall
     const ChangedContacts found =
         contacts.computeChanged(grains, changed, stepLength(), contactScheme(context).contacts);
     bookEnergyOfEnded(-found.given);
-    TimeIntegration::renewAccelerations(grains, contacts.store(), context.gravity, found.places);
+    std::vector<std::uint32_t> places = found.places;  // of a grain one for each of its contacts
+    std::ranges::sort(places);
+    places.erase(std::ranges::unique(places).begin(), places.end());
+    TimeIntegration::renewAccelerations(grains, contacts.store(), context.gravity, places);
+    parts.addAccelerations(context, places);
 }
 
 bool Scene::Inside::isNewToChecks(std::span<const std::uint32_t> added) const {

@@ -19,6 +19,7 @@ namespace {
 /// By which power of Young's modulus a field is scaled; 0: it is not. At the same force Hertz's stiffness
 /// goes with the power 2/3 of E, and a dashpot that keeps the restitution with the root of m k.
 double powerOf(const NamedField& field) {
+    if (field.name == "adhesionStiffness") return 0;  // it gives the range and the work of the attraction
     if (field.unit == "Pa" && field.name.find("odulus") != std::string_view::npos) return 1;
     if (field.unit == "N/m" && field.name.find("tiffness") != std::string_view::npos) return 2.0 / 3;
     if (field.unit == "kg/s" && field.name.find("issipation") != std::string_view::npos) return 1.0 / 3;
@@ -117,6 +118,11 @@ SoftnessAdvice softestModulus(Scene& scene, const SoftnessQuestion& question) {
                    .after = stepScaled(scene, toMaterial * softer),
                    .fields = fieldsToScale(scene, toMaterial * softer),
                    .others = othersIn(scene, toMaterial * softer)};
+    if (!(there > 0))
+        advice.step->others.emplace_back(
+            "The contact laws have no Young's modulus: the factors suppose that the stiffnesses are those of "
+            "the "
+            "material.");
     setGain(advice, advice.step->after / advice.step->before);
     return advice;
 }

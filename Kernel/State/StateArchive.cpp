@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
@@ -62,7 +64,8 @@ void StateArchive::sameValues(std::string_view name, std::vector<double> numbers
     column<double>(name, kept);
     unitOfNext = {};
     double largest = 0;
-    for (const double number : kept) largest = std::max(largest, std::abs(number));
+    for (const double number : kept)
+        if (std::isfinite(number)) largest = std::max(largest, std::abs(number));
     const auto isNear = [&](double a, double b) {
         return a == b || (a != a && b != b) || std::abs(a - b) <= 1e-9 * largest;
     };

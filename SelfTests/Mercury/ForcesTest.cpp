@@ -266,10 +266,12 @@ class Driven : public DPMBase {
 public:
     double frequency;             // rad/s
     std::vector<double> asked{};  // s, when
+    LinearViscoelasticSpecies* material = nullptr;
     Driven(double ofForce, double step, const Integrator& scheme) : frequency(ofForce) {
         LinearViscoelasticSpecies species;
         species.setDensity(2e-6 / sphereMass(1e-4, 1)), species.setStiffness(0.1);
-        SphericalParticle grain(speciesHandler.copyAndAddObject(species));
+        material = speciesHandler.copyAndAddObject(species);
+        SphericalParticle grain(material);
         grain.setRadius(1e-4);
         particleHandler.copyAndAddObject(grain);
         setIntegrator(scheme);
@@ -437,6 +439,27 @@ TEST(MercuryForces, stayWhereAHookChangesTheGrain) {
     const BondPart::Bond& bond = bonded.bonds.all().at(0);
     EXPECT_NEAR(norm(bond.elastic.force), bonded.force.norm(), 1e-8 * bonded.force.norm());
     EXPECT_LT(norm(bond.damping.force), 1e-8 * bonded.force.norm());
+}
+
+// A grain that is pressed on a wall, whose contact a hook changes in each step, stays at the overlap F/k.
+// (Without the force at the start of each step it would swing about F/2k.)
+TEST(MercuryForces, stayWhereAHookChangesTheContact) {
+    static constexpr double force = 1e-7, overlap = force / 0.1;  // N, m
+    struct Pressed : Driven {
+        Pressed() : Driven(0, 1e-4, integrators::predictedVelocityVerlet) {
+            InfiniteWall wall;
+            wall.setSpecies(material), wall.set({1, 0, 0}, {1e-4 - overlap, 0, 0});
+            wallHandler.copyAndAddObject(wall);
+            setTimeMax(0.05);
+        }
+        void computeExternalForces(MercuryForcedGrain p) override { p->addForce({force, 0, 0}); }
+        void actionsAfterTimeStep() override {
+            material->setStiffness(material->getStiffness() * (1 + 1e-12));
+        }
+    } scene;
+    scene.solve();
+    // 500 parts in 10^12 of the overlap, and the round-off of positions of 1e-4 m.
+    EXPECT_NEAR(scene.particleHandler.getObject(0).getPosition().x(), 0, 1e-6 * overlap);
 }
 
 // A part of a driver's own reads the velocities that contacts have seen, wherever it stands in the order.

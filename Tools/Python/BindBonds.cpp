@@ -40,7 +40,9 @@ Stiffness stiffnessOf(PythonScene& scene, std::optional<double> young, std::opti
                       double shearShare, std::optional<double> normalPerArea,
                       std::optional<double> shearPerArea, std::optional<py::function> function) {
     const bool isBeam = young && shear, isParallel = normalPerArea && shearPerArea;
-    if (isBeam + isParallel + function.has_value() != 1)
+    const bool hasHalf =
+        young.has_value() != shear.has_value() || normalPerArea.has_value() != shearPerArea.has_value();
+    if (hasHalf || isBeam + isParallel + function.has_value() != 1)
         throw InputError(
             "add_bond_material() takes young_modulus and shear_modulus (Pa) of a beam, or normal_stiffness "
             "and shear_stiffness (Pa/m) of a parallel bond, or a function stiffness.");

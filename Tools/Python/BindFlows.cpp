@@ -49,7 +49,7 @@ std::size_t addOutlet(PythonScene& scene, const std::optional<AnyRegion>& region
                       const std::optional<Vec3D>& normal, const std::optional<Vec3D>& point,
                       const std::optional<ArrayLike>& sizeClasses, double leastAge,
                       std::optional<py::function> condition) {
-    if (region.has_value() == (normal && point))
+    if (normal.has_value() != point.has_value() || region.has_value() == normal.has_value())
         throw InputError("add_outlet() takes a region, or the normal and a point (m) of a plane.");
     Outlet outlet;
     if (region) region->giveTo(outlet, scene);

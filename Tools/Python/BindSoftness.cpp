@@ -28,7 +28,10 @@ KeptCohesion keptNamed(const std::optional<std::string>& name) {
 std::string textOf(const SoftnessAdvice& advice) {
     std::string text = advice.text();
     if (!advice.step) return text;
-    for (const ScaledField& scaled : advice.step->fields) {
+    std::vector<ScaledField> fields =
+        advice.step->fields;  // the longest first: one name may be part of another
+    std::ranges::sort(fields, std::greater(), [](const ScaledField& one) { return one.field.size(); });
+    for (const ScaledField& scaled : fields) {
         const std::string name = snakeCase(scaled.field);
         if (name == scaled.field) continue;
         for (std::size_t at = text.find(scaled.field); at != std::string::npos; at = text.find(scaled.field))

@@ -240,6 +240,11 @@ void bindDrives(py::class_<WallHandle>& wall) {
             [](const WallHandle& w, std::optional<double> density, std::optional<double> mass,
                const Vec3D& centre, const std::optional<ArrayLike>& inertia, const Vec3D& force,
                const Vec3D& torque) {
+                if (density &&
+                    (mass || inertia || !centre.isZero(0) || !force.isZero(0) || !torque.isZero(0)))
+                    throw InputError(
+                        "set_free_body() with density takes no mass, centre, inertia, force or torque; give "
+                        "mass and inertia instead of density.");
                 if (density) return w.as<TriangleWall>("density").setFreeBody(*density);
                 if (!mass || !inertia)
                     throw InputError("set_free_body() takes density, of a closed mesh, or mass and inertia.");

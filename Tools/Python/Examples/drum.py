@@ -40,7 +40,7 @@ def surface_angle(x, z, reach=RADIUS / 2, strip=GRAIN):
     middle = np.abs(x) < reach
     number = np.floor(x[middle] / strip).astype(int)
     order = np.lexsort((z[middle], number))  # the last one of each number is the highest
-    last = np.append(np.diff(number[order]) > 0, True)
+    last = np.append(np.diff(number[order]) > 0, True)[:len(order)]
     x, z = x[middle][order][last], z[middle][order][last]
     a, b = np.triu_indices(len(x), 1)
     return np.degrees(np.arctan(np.median((z[b] - z[a]) / (x[b] - x[a])))) if len(a) else np.nan

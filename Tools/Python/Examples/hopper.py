@@ -52,6 +52,8 @@ def flow_of(time, mass, batches=20):
     batches, windows of equal length. (A line through the cumulated mass claims an error that is far too small.)"""
     steady = mass > 0.1 * mass[-1]
     time, mass = time[steady], mass[steady]
+    if len(time) < 6:
+        raise SystemExit("Too few rows after the first tenth for a flow and its error.")
     ends = np.linspace(time[0], time[-1], min(batches, len(time) - 1) + 1)
     flows = np.diff(np.interp(ends, time, mass)) / np.diff(ends)
     return (mass[-1] - mass[0]) / (time[-1] - time[0]), flows.std(ddof=1) / np.sqrt(len(flows))

@@ -94,9 +94,7 @@ public:
             std::vector<CurvePoint> steady;
             for (const CurvePoint& p : left)
                 if (p.x >= scene.measureFrom) steady.push_back(p);
-            const MeanFlow mean = meanFlow(steady);
-            found.emplace_back("flow_kg/s", mean.flow);
-            found.emplace_back("flow_error_kg/s", mean.error);
+            found.emplace_back("flow_kg/s", meanFlow(steady).flow);
         }
         if (scene.name == "impact") found.emplace_back("depth_m", scene.grains.back().position.z() - deepest);
         return found;
