@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Contacts/GrainMasses.h"
 #include "Kernel/Math/ExactSum.h"
 #include "Kernel/Particles/DampedServo.h"
 
@@ -105,6 +106,7 @@ bool PlaneMotion::canMove(const Wall& wall) { return dynamic_cast<const Infinite
 SpringAndDashpot wallStiffness(const ContactSystem& contacts, const ParticleStore& grains, int wall) {
     ExactSum springs, dashpots;
     const ContactStore& store = contacts.store();
+    const GrainMasses masses(grains, contacts.laws());  // of held grains and those of rigid bodies, too
     for (const Bucket& bucket : store.buckets) {
         if (bucket.wall != wall) continue;
         const int a = bucket.species1, b = bucket.species2;
@@ -115,8 +117,8 @@ SpringAndDashpot wallStiffness(const ContactSystem& contacts, const ParticleStor
             const TranslationRecord& grain = grains.translation[store.firstOf(c)];
             const Bodies bodies{grain.radius, infinity};
             if (overlap > 0) springs.add(contacts.laws().normalStiffness(a, b, bodies, overlap));
-            if (!(overlap > 0 || resists) || grain.inverseMass == 0) continue;
-            const PressedPair pair{bodies, 1 / grain.inverseMass, std::max(overlap, 1e-6 * grain.radius)};
+            if (!(overlap > 0 || resists)) continue;
+            const PressedPair pair{bodies, masses(store.firstOf(c)), std::max(overlap, 1e-6 * grain.radius)};
             ContactStiffness found;
             contacts.laws().ofPair(a, b).stiffnesses(a, b, {&pair, 1}, {&found, 1});
             dashpots.add(found.normal.dashpot);

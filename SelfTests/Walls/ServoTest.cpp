@@ -94,6 +94,22 @@ TEST(ServoWall, holdsTheForceOfASoftBedThatGoesAway) {
     EXPECT_NEAR(scene.plane().getDrivenVelocity(), -u, 1e-6 * u);
 }
 
+/// The dashpots of held grains, which act on the wall as those of others do, are known too: critical damping,
+/// a time of 2 sqrt(m/k), in steps of a tenth of that root. (Without them the speed grows by a factor in each
+/// look: the root -c / (K time) is -1, and the step makes it larger.)
+TEST(ServoWall, comesToItsForceOnHeldGrains) {
+    constexpr double root = 10 * stepLength, mass = stiffness * root * root,
+                     target = 0.01 * radius * stiffness;
+    UnderAServo scene({{.radius = radius, .position = {0, 0, radius}}}, 1.99 * radius,
+                      2 * std::sqrt(mass * stiffness),
+                      mass / (4.0 / 3 * std::numbers::pi * radius * radius * radius));
+    scene.particleHandler.getObject(0).fixParticle();
+    scene.plane().setTargetForce(2 * target, 2 * root, 1);
+    scene.initialise();
+    scene.step(2000);  // 100 times the time
+    EXPECT_NEAR(scene.force(), 2 * target, 1e-9 * target);
+}
+
 /// Columns with dashpots of all sizes, and times down to a fraction of c/k: the force comes to the target and
 /// stays. A servo that feeds its own speed back rings ever more in all but the last three rows. All times are
 /// in sqrt(m/k). The slowest motion of the grains alone is damped with the rate z (2 - 2 cos(pi/(L + 1))), or
