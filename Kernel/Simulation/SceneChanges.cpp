@@ -211,7 +211,7 @@ void Scene::Inside::computeChanged(const GrainChanges& changes, int firstNewWall
     bookEnergyOfEnded(-found.given);
     std::vector<std::uint32_t> places = found.places;  // of a grain one for each of its contacts
     std::ranges::sort(places);
-    places.erase(std::ranges::unique(places).begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
     TimeIntegration::renewAccelerations(grains, contacts.store(), context.gravity, places);
     parts.addAccelerations(context, places);
 }
