@@ -97,7 +97,7 @@ static double mostTouchesOnArea(const GrainSizes& grains) {
 /// The springs and dashpots of a membrane's vertices, over their mass: a contact's work, k (u - sum w v)^2
 /// with weights w that sum to 1, is at most k (1/m + 1/M) (m u^2 + M sum w v^2). So a vertex of mass M has
 /// the weights of its contacts, n: those of a hexagonal layer of the smallest grains on each side of its
-/// share of the sheet, at least one on each. (Grains that are held in place touch no walls.)
+/// share of the sheet, at least one on each. (Grains that are held in place are not counted.)
 static SpringAndDashpot membraneRow(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
     const Membrane* const membrane = wall.membrane();
     if (!membrane || !(membrane->lightestVertex() < infinity) || grains.count == 0) return {};

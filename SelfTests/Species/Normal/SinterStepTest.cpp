@@ -108,18 +108,6 @@ TEST(SinterStep, creepIsImplicit) {
         }
 }
 
-/// s, when the neck x^2 = 2 R d of a pair is so large (of the radius).
-double timeOfNeck(SinteringPair<SinterSpecies>& pair, double neck) {
-    const double wanted = 0.5 * neck * neck * pair.radius;
-    double last = pair.overlap();
-    while (true) {
-        pair.step();
-        const double now = pair.overlap();
-        if (now >= wanted) return pair.getTime() - pair.getTimeStep() * (now - wanted) / (now - last);
-        last = now;
-    }
-}
-
 // Diffusion at the steps of ever heavier grains: (x/R)^6 = (x0/R)^6 + 54 g B t / R^4, 17.4926 s from 0.1 R to
 // 0.15 R by an independent integration. At 0.9 of the limit the spring relaxes within a step. The inertia
 // delays by less than m* v / F, v = d' at 0.1 R: 5 nm in 17 s at first three times as fast.

@@ -61,19 +61,6 @@ TEST(Sinter, overlapOfAConstantRateGrowsWithTime) {
     EXPECT_NEAR(ledger.closed() - closed, 0, 1e-12 * work);
 }
 
-/// s, when the neck x^2 = 2 R d of a pair is so large (of the radius).
-template <class S>
-double timeOfNeck(SinteringPair<S>& pair, double neck) {
-    const double wanted = 0.5 * neck * neck * pair.radius;
-    double last = pair.overlap();
-    while (true) {
-        pair.step();
-        const double now = pair.overlap();
-        if (now >= wanted) return pair.getTime() - pair.getTimeStep() * (now - wanted) / (now - last);
-        last = now;
-    }
-}
-
 // (x/R)^6 = (x0/R)^6 + 54 g B t / R^4, also by independent numbers: from a neck of 0.1 R to 0.15 R 17.4926 s.
 // Heavy and stiff grains: steps of 0.1 ms, a spring that takes 1e-3 of the overlap at first.
 TEST(Sinter, neckOfGrainBoundaryDiffusionHasItsClosedForm) {

@@ -43,4 +43,17 @@ private:
     }
 };
 
+/// s, when the neck x^2 = 2 R d of a pair is so large (of the radius).
+template <class S>
+double timeOfNeck(SinteringPair<S>& pair, double neck) {
+    const double wanted = 0.5 * neck * neck * pair.radius;
+    double last = pair.overlap();
+    while (true) {
+        pair.step();
+        const double now = pair.overlap();
+        if (now >= wanted) return pair.getTime() - pair.getTimeStep() * (now - wanted) / (now - last);
+        last = now;
+    }
+}
+
 }  // namespace pendular::scenes
