@@ -49,20 +49,22 @@ struct Draught : StepPart {
 
 int main(int argc, char** argv) {
     RunOptions options{.output = "UserDefinedPart-output"};
+    double endTime = 3;  // s
     const DriverProgram driver{.name = "UserDefinedPart",
                                .description = "A grain falls in a draught of air, a part of this driver.",
                                .options = options,
-                               .files = "what the run writes"};
+                               .files = "what the run writes",
+                               .numbers = {{"end-time", "s", &endTime, notNegative, "end of the run"}}};
     return runDriver(driver, argc, argv, [&] {
         Simulation<LinearViscoelasticSpecies> scene;
         options.apply(scene);
         scene.addPart<Draught>(Vec3D(0.5, 0, 0));
         auto* const glass = scene.speciesHandler.copyAndAddObject({});
-        glass->setDensity(2500), glass->setStiffness(100), glass->setDissipation(1e-4);
+        glass->setDensity(2500), glass->setStiffness(1), glass->setDissipation(1e-5);
         SphericalParticle grain;
         grain.setSpecies(glass), grain.setRadius(1e-4);
         auto falling = scene.particleHandler.copyAndAddObject(grain);
-        scene.setGravity({0, 0, -9.81}), scene.setTimeStep(5e-6), scene.setTimeMax(3);
+        scene.setGravity({0, 0, -9.81}), scene.setTimeStep(5e-5), scene.setTimeMax(endTime);
         scene.solve();
         if (!options.quiet) fmt::print("velocity: {:.4f} m/s\n", fmt::join(falling.getVelocity(), " "));
     });

@@ -430,6 +430,8 @@ void ContactBounds::note(const Term& term, One& one) {
     one.ownDashpot = term.isHeld
                          ? 0  // less is implicit than its mass says
                          : std::min(one.ownDashpot, term.stiffness.normal.dashpot / term.pair.effectiveMass);
+    one.neighbours =
+        std::min(one.neighbours, implicitNeighboursLimit(term.stiffness, term.pair.effectiveMass));
 }
 
 void ContactBounds::addTo(const ParticleStore& grains, const Term& term, std::uint32_t place,
@@ -532,6 +534,7 @@ double ContactBounds::stepOf(const One& one, const Integrator& integrator, bool 
     if (!integrator.contacts.timesTouches) return signChange.limit(mode);
     if (integrator.contacts.implicitForces) mode.dashpot = std::max(mode.dashpot - one.ownDashpot, 0.0);
     double step = signChange.limit(mode);
+    if (integrator.contacts.implicitForces) step = std::min(step, one.neighbours);
     if (integrator.contacts.springsInStep) return step;
     const double spin = springsInSpin(one, exact);
     if (spin > 0) step = std::min(step, springsAheadLimit(spin, one.relaxation, integrator));

@@ -125,6 +125,7 @@ private:
     struct OfOne {
         Block spring{}, dashpot{};
         double ownDashpot = infinity;  // 1/s, the least that one of its contacts makes implicit
+        double neighbours = infinity;  // s, the least of implicitNeighboursLimit() of its contacts
         double relaxation = infinity;  // s, of the least damped spring of friction
         double overlap = 0;            // of the smaller radius
         std::size_t contacts = 0;

@@ -69,6 +69,17 @@ inline bool lacksDashpots(double squaredFrequency, double relaxation) {
     return std::sqrt(squaredFrequency) * relaxation < 0.25 * 0.42 * 0.42 * 0.42;
 }
 
+/// The largest step (s) for springs beside dashpots that are implicit for n contacts of a grain. The velocity
+/// that such a dashpot reads is found as if the last change of the spring's force, h k v, had moved the pair
+/// n times as far: in a slow motion it is v (1 - n h^2 k / (2 m*)), and the dashpot drives the motion where
+/// that is negative. Sliding, which the rims of spheres share, has 7/2 k_t.
+/// @param effectiveMass kg, m1 m2 / (m1 + m2)
+inline double implicitNeighboursLimit(const ContactStiffness& contact, double effectiveMass) {
+    if (contact.implicitNeighbours == 1) return infinity;  // the limits of sign changes are below it
+    const double spring = std::max(contact.normal.spring, 3.5 * contact.sliding.spring);  // N/m
+    return std::sqrt(2 * effectiveMass / (contact.implicitNeighbours * spring));
+}
+
 /// The spring and dashpot that make grains turn against each other: 5/2 k_t / m* (of a solid sphere, 5/2 / m
 /// at its rim) if neighbours turn in one sense, or that of rolling if they turn in the opposite one, and that
 /// of torsion.
@@ -153,18 +164,21 @@ double stabilityLimit(const Mixed& laws, const Bodies& bodies, double effectiveM
         return stabilityMargin * std::min(signChange.limit(shift), signChange.limit(spin));
     const bool isImplicit = integrator.contacts.implicitForces;
     const bool isOfPair = isImplicit && !response.isOfBodies();
+    const double neighbours = isImplicit ? implicitNeighboursLimit(contact, effectiveMass) : infinity;
     if (isOfPair && contacts == 1) {
         double squared = contact.normal.spring;
         if (integrator.contacts.springsInStep)  // those of friction are explicit
             squared = std::max(squared, fastestOfPair(contact, bodies));
-        return stabilityMargin * std::sqrt(0.5) *
-               signChange.limit({centre * squared + ofWalls.shift.spring, ofWalls.shift.dashpot});
+        return std::min(
+            stabilityMargin * std::sqrt(0.5) *
+                signChange.limit({centre * squared + ofWalls.shift.spring, ofWalls.shift.dashpot}),
+            stabilityMargin * neighbours);
     }
     if (isOfPair) shift.dashpot -= centre * contact.normal.dashpot;
     if (integrator.contacts.springsInStep)
-        return stabilityMargin * std::min(signChange.limit(shift), signChange.limit(spin));
+        return stabilityMargin * std::min({neighbours, signChange.limit(shift), signChange.limit(spin)});
     return stabilityMargin *
-           std::min({signChange.limit(shift), signChange.limit({0, spin.dashpot}),
+           std::min({neighbours, signChange.limit(shift), signChange.limit({0, spin.dashpot}),
                      springsAheadLimit(spin.spring, contact.shortestRelaxation(), integrator)});
 }
 

@@ -29,6 +29,7 @@ struct SpringAndDashpot {
 /// radius times the relative spin).
 struct ContactStiffness {
     SpringAndDashpot normal, sliding, rolling, torsion;
+    double implicitNeighbours = 1;  // contacts of a grain for which the dashpots are implicit (Law.h)
 
     /// The relaxation time (s) of the least damped spring of friction.
     [[nodiscard]] double shortestRelaxation() const {

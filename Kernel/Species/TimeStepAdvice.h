@@ -89,6 +89,7 @@ private:
             found.normal.dashpot += bridge.normal;
             found.sliding.dashpot += bridge.sliding + std::abs(bridge.coupling);
             found.rolling.dashpot += bridge.rolling + std::abs(bridge.coupling);
+            found.implicitNeighbours = implicitNeighbours<Adhesion>;
         }
     }
 

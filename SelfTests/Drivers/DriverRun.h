@@ -53,6 +53,7 @@ inline std::string shortOptionsOf(const std::string& driver) {
         {"TriaxialTest",
          "--number 64 --stiffness 1e3 --inertial-number 0.05 --strain 0.1 --interval-strain 0.05"},
         {"TriaxialSleeve", "--number 100 --inertial-number 0.03 --strain 0.05 --interval-strain 0.01"},
+        {"UserDefinedPart", "--end-time-s 0.01"},
         {"WetWallCollision", "--speeds-m/s 1"},
         {"WornDrum", "--end-time-s 0.02"},
         {"WornPlates", "--number 1"}};

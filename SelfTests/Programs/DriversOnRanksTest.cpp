@@ -25,9 +25,6 @@ constexpr std::string_view summaries = "summary.csv";
 /// Else small scenes that begin without grains would stay on one rank: they are not worth the sharing.
 const std::string cutsWander = "PENDULAR_CUTS_WANDER=1 ";
 
-/// One grain for 600 000 steps: with wandering cuts it is listed anew in each.
-constexpr std::string_view ofOneGrain = "UserDefinedPart";
-
 /// The rows of all summaries that do not tell of the clock and of lists, which are due when ranks say so.
 std::string summariesOf(const fs::path& folder) {
     std::string rows;
@@ -69,8 +66,7 @@ TEST_P(DriversOnRanks, haveTheResultsOfOneProcess) {
     for (const int ranks : {2, 3}) {
         SCOPED_TRACE(fmt::format("{} ranks", ranks));
         const std::string own = std::to_string(ranks);
-        const ProgramResult shared =
-            runIn(own, (GetParam() == ofOneGrain ? "" : cutsWander) + onRanks(ranks, 300));
+        const ProgramResult shared = runIn(own, cutsWander + onRanks(ranks, 300));
         if (refused != notShared.end()) {
             EXPECT_NE(shared.exitCode, 0);
             EXPECT_NE(logOf(own).find(refused->second), std::string::npos) << logOf(own);
