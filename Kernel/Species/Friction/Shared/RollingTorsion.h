@@ -42,9 +42,10 @@ struct RotationForces {
 /// the opposite one on body 2: the limit of the torque is mu L F_n, its stiffness k L^2. Law is the law
 /// derived from this; it says its levers, leverOfRolling and leverOfTorsion.
 /// Source: Luding (2008), Granular Matter 10, 235, rolling and torsion resistance. The lever of rolling is R*
-/// by Thornton et al. (2023), equation 4.9. MercuryDPM's FrictionInteraction has 2 R* for both, its
-/// MindlinRollingTorsionInteraction R* for rolling and 2 R* for torsion (read in its sources of 2018 to
-/// 2024).
+/// by Thornton et al. (2023), equation 4.9. MercuryDPM, by its sources: FrictionInteraction has 2 R* for both
+/// in all states read (commits 1192cf17, 126c08fa, 57a2e5ea, 55f4a5d3). MindlinRollingTorsionInteraction has
+/// 2 R* for both in 126c08fa (copyright 2018), and R* for rolling and 2 R* for torsion in f44a287c (copyright
+/// 2020) and in 55f4a5d3 (2024), which is the state that SelfTests/Mercury compares with.
 template <class Law>
 struct RollingTorsion {
     static constexpr bool hasContactTorque = true;
