@@ -507,8 +507,8 @@ TEST(SetUpOfParts, valuesOfFunctionsThatAreInfinite) {
         Hdf5File read(place, Hdf5File::Access::Read);
         const std::string sentence = support::refusal(
             [&] { StateArchive(read, StateArchive::Direction::Read).sameValues("values", now, "m"); });
-        EXPECT_TRUE(sentence.empty() || (support::isOneSentence(sentence) &&
-                                         support::contains(sentence, " in the file and ")))
+        EXPECT_TRUE(sentence.empty() ||
+                    (support::isOneSentence(sentence) && support::contains(sentence, " in the file and ")))
             << sentence;
         return sentence.empty();
     };

@@ -154,7 +154,8 @@ void bindBodies(py::module_& module, SceneClass& scene) {
                py::arg("centre") = py::none(), py::arg("inertia") = py::none(),
                comment("ClumpTemplate",
                        "spheres: N x 4 numbers, x, y, z and radius, in m, or in any unit where sizes scale "
-                       "them. mass: kg, centre: of mass, the origin where it is not given, and inertia: 3 x 3, kg m^2, about it: of the shape "
+                       "them. mass: kg, centre: of mass, the origin where it is not given, and inertia: 3 x "
+                       "3, kg m^2, about it: of the shape "
                        "as it is given; without them, those of the solid that the spheres make."));
     module.def(
         "superquadric",
@@ -181,7 +182,8 @@ void bindBodies(py::module_& module, SceneClass& scene) {
              py::arg("centre") = py::none(), py::arg("inertia") = py::none(),
              comment("BodyHandler::join",
                      "identities: of the grains. mass: kg, centre: m, of mass, in space, as the grains are "
-                     "now (the origin where it is not given), and inertia: 3 x 3, kg m^2, about it. Returns the number of the body."))
+                     "now (the origin where it is not given), and inertia: 3 x 3, kg m^2, about it. Returns "
+                     "the number of the body."))
         .def("bodies", &bodies,
              "Columns of all rigid bodies, in the order of their numbers: body (the number), mass_kg, "
              "volume_m3; position_m, velocity_m_per_s, spin_rad_per_s, force_N and torque_Nm, along the axes "

@@ -69,9 +69,8 @@ Stiffness stiffnessOf(PythonScene& scene, std::optional<double> young, std::opti
 std::size_t addMaterial(PythonScene& scene, double radius, std::optional<double> young,
                         std::optional<double> shear, std::optional<double> shearShare,
                         std::optional<double> normalPerArea, std::optional<double> shearPerArea,
-                        std::optional<py::function> stiffness,
-                        double tensileStrength, double shearStrength, double momentShare, bool atEnds,
-                        double damping) {
+                        std::optional<py::function> stiffness, double tensileStrength, double shearStrength,
+                        double momentShare, bool atEnds, double damping) {
     const BondMaterial material{
         radius,
         stiffnessOf(scene, young, shear, shearShare, normalPerArea, shearPerArea, std::move(stiffness)),
@@ -131,7 +130,8 @@ void bindBonds(SceneClass& scene) {
              py::arg("moment_share") = 1.0, py::arg("at_ends") = true, py::arg("damping") = 0.0,
              "What bonds are made of; returns its number for bond(). At set-up the first one.\n\n"
              "radius: m, of the round section. Its stiffness is that of Timoshenko's beam (young_modulus "
-             "and shear_modulus, Pa; shear_share: 0.9 without it, infinite for Euler's), or of a parallel bond of "
+             "and shear_modulus, Pa; shear_share: 0.9 without it, infinite for Euler's), or of a parallel "
+             "bond of "
              "Potyondy and Cundall (normal_stiffness and shear_stiffness, Pa/m), or stiffness(length) "
              "returns the normal, shear (N/m), bending and twist (N m/rad) one. It breaks at "
              "tensile_strength or shear_strength (Pa) at the rim; moment_share (0 to 1): how much moments "
