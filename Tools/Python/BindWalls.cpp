@@ -319,9 +319,8 @@ void bindWalls(py::module_& module, SceneClass& scene) {
              "length (m) it is a thin tube with open ends about the point, and grains may be on both "
              "sides.\n\n"
              "species: the material of its surface. axis: its direction, of any length; point: m, on the "
-             "axis, of a tube its middle; radius: m; grains_inside: True where it is not given, else "
-             "outside. forces: they are kept, as "
-             "by keep_forces().")
+             "axis, of a tube its middle; radius: m; grains_inside: False where they are outside, not with "
+             "length. forces: they are kept, as by keep_forces().")
         .def("add_profile", &addProfile, py::arg("species"), py::arg("axis"), py::arg("point"),
              py::arg("profile"), py::kw_only(), py::arg("forces") = false,
              comment("AxisymmetricWall",

@@ -43,9 +43,9 @@ struct RotationForces {
 /// derived from this; it defines its levers, leverOfRolling and leverOfTorsion.
 /// Source: Luding (2008), Granular Matter 10, 235, rolling and torsion resistance. The lever of rolling is R*
 /// by Thornton et al. (2023), equation 4.9. MercuryDPM, by its sources: FrictionInteraction has 2 R* for both
-/// in all states read (commits 1192cf17, 126c08fa, 57a2e5ea, 55f4a5d3). MindlinRollingTorsionInteraction has
-/// 2 R* for both in 126c08fa (copyright 2018), and R* for rolling and 2 R* for torsion in f44a287c (copyright
-/// 2020) and in 55f4a5d3 (2024), which is the state that SelfTests/Mercury compares with.
+/// in all states read: 126c08fa (2018) and 57a2e5ea (2020) of kuwt/MercuryDPM_fork, and 55f4a5d3 (2024), with
+/// which SelfTests/Mercury compares. MindlinRollingTorsionInteraction has 2 R* for both in 126c08fa, and R*
+/// for rolling and 2 R* for torsion in f44a287c (2020, the same fork) and in 55f4a5d3.
 template <class Law>
 struct RollingTorsion {
     static constexpr bool hasContactTorque = true;
