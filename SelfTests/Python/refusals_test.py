@@ -142,6 +142,8 @@ MISUSES = {
     "the side of a tube": (lambda s: s.add_cylinder(s.glass, (0, 0, 1), (0, 0, 0), 1, length=1, grains_inside=False), "leave grains_inside out"),
     "fixed grains that are held": (lambda s: s.add_grains(s.glass, [[0, 0, 1]], 1e-3, fixed=True, held="z"), "held = 'z'"),
     "points of no contacts": (lambda s: s.write_hdf5(1e-3, contacts=False, contact_points=True), "contacts=False"),
+    "an interval without wear": (
+        lambda s: s.add_mesh(s.glass, [[[0, 0, 9], [1, 0, 9], [0, 1, 9]]]).keep_wear("none", interval=1), "leave interval"),
     "density of a body with its mass": (
         lambda s: s.add_mesh(s.glass, [[[0, 0, 9], [1, 0, 9], [0, 1, 9]]]).set_free_body(density=1000, mass=1), "takes no mass"),
     "spray without a shape": (
