@@ -40,7 +40,7 @@ double ContactSystem::renew(Grains& grains, bool hasNewLaws) {
     return stored;
 }
 
-/// The bridge of a contact forgets how the bodies moved if a change has put them somewhere else.
+/// Resets the gap velocity of a contact's bridge where a change has put the bodies somewhere else.
 void ContactSystem::checkGap(const Grains& grains, const Bucket& bucket, std::uint32_t contact) {
     const std::size_t slot = contacts.slotOf(contact);
     const ObservedContact seen = observe(grains, bucket, contact);
@@ -175,7 +175,7 @@ static void addUntouchedOfHeld(const ContactStore& contacts, const ParticleStore
 
 namespace {
 
-/// What a block of contacts has and remembers, to be given back to some of them.
+/// The records and the history of a block of contacts, to be given back to some of them.
 class KeptBlock {
 public:
     KeptBlock(const ContactStore& contacts, std::size_t block)
@@ -331,7 +331,7 @@ ListedOfHeld ContactSystem::askedOfHeld() const {
 }
 
 bool ContactSystem::needsOtherHeld(const Grains& grains) {
-    // All or none does not change by itself, and walls that are added or removed ask for a list anyway.
+    // All or none does not change by itself, and adding or removing walls rebuilds the list anyway.
     const bool followsWalls = heldContacts == HeldContacts::WhereAsked && !partsNeedHeld;
     bool others = heldIsNew;
     for (std::size_t w = 0; !others && followsWalls && w < ofHeld.walls.size() && w < walls->getSize(); ++w)

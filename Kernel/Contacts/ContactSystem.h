@@ -90,7 +90,7 @@ public:
     /// @param step s, of the step that comes
     ChangedContacts computeChanged(Grains& grains, const ChangedBodies& changed, double step,
                                    ContactTiming timing);
-    /// Which contacts of bodies that are held along all axes are listed; asked for from the next list on.
+    /// Which contacts of bodies that are held along all axes are listed, from the next list rebuild on.
     void setHeldContacts(HeldContacts which) {
         heldIsNew |= which != heldContacts;
         heldContacts = which;
@@ -99,7 +99,7 @@ public:
     /// A part of the step needs them: all are listed, unless the scene has None.
     void askForHeldContacts() { partsNeedHeld = true; }
     [[nodiscard]] const ListedOfHeld& listedOfHeld() const { return ofHeld; }
-    /// Whether others are asked for than are listed.
+    /// Whether contacts of held bodies are needed that are not listed, or the reverse.
     [[nodiscard]] bool needsOtherHeld(const Grains& grains);
     /// Brings grains back into a periodic scene whose walls have ends that were put outside between two
     /// steps: their contacts at walls go on at what the walls have behind the face. Before renew().

@@ -196,7 +196,7 @@ void FluidPart::beforeMotion(StepContext& step) {
 }
 
 /// The share of the step's end. The accelerations that the end makes of the contacts are without the fluid,
-/// which is asked anew in the next step.
+/// which is computed anew in the next step.
 void FluidPart::accelerate(StepContext& step) {
     if (step.length == 0) return;
     ParticleStore& grains = step.grains();

@@ -80,7 +80,8 @@ void checkPistons(const ContactLaws& species, const GrainSizes& grains, const Wa
 
 /// The step (s) above which a wall that forces move is no longer integrated stably against the grains that
 /// touch it: k (1/m + n/M), and so its dashpots, of which nothing is implicit; membranes as in
-/// sceneStabilityLimit(). Infinite without such walls. For steps that grains bear above the stability limit.
+/// sceneStabilityLimit(). Infinite without such walls. For steps above the stability limit at which the
+/// grains are still stable.
 [[nodiscard]] double limitOfMovedWalls(const ContactLaws& species, const GrainSizes& grains,
                                        const WallHandler& walls, const Integrator& integrator);
 

@@ -71,8 +71,8 @@ void Scene::tellEvents() {
     if (!contacts().events().isListening()) return;
     if (inside->isDistributed())
         inside->eventsOfAll = pendular::eventsOfAll(contacts().events(), contacts().ranks());
-    const std::vector<ContactEvent> told = contactEvents();  // the hook may listen no more
-    for (const ContactEvent& event : told) actionsOnContactEvent(event);
+    const std::vector<ContactEvent> events = contactEvents();  // a copy: the hook may end the listening
+    for (const ContactEvent& event : events) actionsOnContactEvent(event);
 }
 
 RunNumbers Scene::numbers() const {

@@ -3,8 +3,12 @@
 // too.
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <regex>
 #include <set>
 
@@ -15,7 +19,9 @@
 #include "Kernel/Parts/GrainCopies.h"
 #include "Kernel/Parts/HeatPart.h"
 #include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Sizes/SizeLaws.h"
+#include "Kernel/State/StateArchive.h"
 #include "SelfTests/Liquid/WetScenes.h"
 #include "SelfTests/Restart/ResumedWith.h"
 
@@ -430,6 +436,96 @@ TEST(SetUpOfParts, partsOfMercury) {
                              {"parts/boundaries that act in steps/boundary 0/prescribedDistance",
                               [](M& s) { s.fluxAt = 0.06; }},
                              {"parts/prescribed paths/velocityOfGrain0", [](M& s) { s.path = 2; }}});
+}
+
+/// Three held grains, of which the first has the path of its velocity prescribed, the second that of its
+/// place.
+struct GrainsOnPaths : MercuryScene<S> {
+    explicit GrainsOnPaths(double speed) {
+        setDomain(Vec3D(0, 0, 0), Vec3D(.1, .1, .1));
+        S species;
+        species.setDensity(2000), species.setStiffness(1000);
+        SphericalParticle grain(speciesHandler.copyAndAddObject(species));
+        grain.setRadius(0.002), grain.fixParticle();
+        for (int k = 0; k < 3; ++k) {
+            grain.setPosition({0.02, 0.02 + 0.02 * k, 0.05});
+            const GrainReference added = particleHandler.copyAndAddObject(grain);
+            if (k == 0) setPrescribedVelocity(added, [](double time) { return Vec3D(1 + time, 0, 0); });
+            if (k == 1)
+                setPrescribedPosition(added,
+                                      [=](double time) { return Vec3D(0.02 + speed * time, 0.04, 0.05); });
+        }
+        setTimeStep(1e-5);
+        setTimeMax(1);
+        setQuiet();
+    }
+};
+
+/// Grains with a path are removed in a run. The same set-up, with all grains and paths, goes on from its
+/// file, also where no step was done since; another path of a grain that is left is refused.
+TEST(SetUpOfParts, pathsOfGrainsThatWereRemoved) {
+    for (const std::size_t stepsSince : {0u, 4u})
+        for (const auto& removed : {std::vector<std::size_t>{0}, {1}, {0, 1}, {2}}) {
+            const support::TestFolder folder;
+            const std::filesystem::path file = folder.path() / "begun.h5";
+            GrainsOnPaths whole(1);
+            whole.initialise();
+            whole.step(5);
+            for (const std::size_t identity : removed) whole.particleHandler.removeObject(identity);
+            whole.step(stepsSince);
+            whole.writeRestart(file);
+            whole.step(10);
+            GrainsOnPaths second(1);
+            second.restartFrom(file);
+            second.initialise();
+            second.step(10);
+            ASSERT_EQ(second.particleHandler.getSize(), 3 - removed.size());
+            EXPECT_EQ(stateHash(second.particleHandler.store()), stateHash(whole.particleHandler.store()));
+            const std::string sentence = support::refusal([&] {
+                GrainsOnPaths other(2);
+                other.restartFrom(file);
+                other.initialise();
+            });
+            const bool isLeft = std::ranges::count(removed, 1u) == 0;
+            EXPECT_EQ(support::contains(sentence, "parts/prescribed paths/placeOfGrain1"), isLeft)
+                << sentence;
+            EXPECT_EQ(sentence.empty(), !isLeft) << sentence;
+        }
+}
+
+/// Values of functions are equal within 1e-9 of the largest finite one. An infinite one is equal to itself
+/// alone, and so is one that is not set (NaN).
+TEST(SetUpOfParts, valuesOfFunctionsThatAreInfinite) {
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const support::TestFolder folder;
+    auto isTaken = [&, k = 0](const std::vector<double>& kept, const std::vector<double>& now) mutable {
+        const std::filesystem::path place = folder.path() / fmt::format("{}.h5", ++k);
+        Hdf5File written(place, Hdf5File::Access::Create);
+        StateArchive(written, StateArchive::Direction::Write).sameValues("values", kept, "m");
+        written.close();
+        Hdf5File read(place, Hdf5File::Access::Read);
+        const std::string sentence = support::refusal(
+            [&] { StateArchive(read, StateArchive::Direction::Read).sameValues("values", now, "m"); });
+        EXPECT_TRUE(sentence.empty() ||
+                    (support::isOneSentence(sentence) && support::contains(sentence, " in the file and ")))
+            << sentence;
+        return sentence.empty();
+    };
+    EXPECT_TRUE(isTaken({1, inf, -inf, none}, {1, inf, -inf, none}));
+    for (const double other : {-inf, 0.0, 1.0, 1e300, none}) {
+        EXPECT_FALSE(isTaken({1, inf}, {1, other})) << other;
+        EXPECT_FALSE(isTaken({1, other}, {1, inf})) << other;
+    }
+    for (const double other : {inf, 0.0, 1.0}) {
+        EXPECT_FALSE(isTaken({1, none}, {1, other})) << other;
+        EXPECT_FALSE(isTaken({1, other}, {1, none})) << other;
+    }
+    // Beside an infinite value the others are compared as without it.
+    EXPECT_TRUE(isTaken({1, inf}, {1 + 0.9e-9, inf}));
+    EXPECT_FALSE(isTaken({1, inf}, {1 + 1.1e-9, inf}));
+    EXPECT_FALSE(isTaken({1, 2, inf}, {1.001, 2, inf}));
+    EXPECT_FALSE(isTaken({1}, {1, 1}));
 }
 
 /// Every part of a step in the kernel, and where its settings are changed.
