@@ -101,7 +101,7 @@ public:
     // Scene.cpp
 
     [[nodiscard]] GrainSizes sizesOf(const ParticleStore& grains) const {
-        return sizesOfScene(*context.laws, grains, scene.inletHandler,
+        return sizesOfScene(*context.laws, grains, scene.inletHandler, contacts.getHeldContacts(),
                             grains.isShared ? contacts.ranks() : AllRanks());
     }
     [[nodiscard]] LiquidLedger liquidLedger() const;

@@ -65,7 +65,6 @@ Scene& ready(Scene& scene) {
     scene.keepEnergyLedger();
     scene.setQuiet();
     scene.setTimeMax(1);
-    scene.acceptUnstableTimeStep();
     return scene;
 }
 
