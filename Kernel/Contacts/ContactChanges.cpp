@@ -15,6 +15,10 @@ namespace pendular {
 
 static bool isHeld(const TranslationRecord& grain) { return grain.inverseMass == 0 && grain.radius > 0; }
 
+bool ContactSystem::areHeldAmong(const Grains& grains) {
+    return std::ranges::any_of(grains.translation, isHeld);
+}
+
 double ContactSystem::renew(Grains& grains, bool hasNewLaws) {
     double stored = 0;
     const ListedOfHeld asked = askedOfHeld();
@@ -331,13 +335,15 @@ ListedOfHeld ContactSystem::askedOfHeld() const {
 }
 
 bool ContactSystem::needsOtherHeld(const Grains& grains) {
+    if (!hasHeld) return false;
     // All or none does not change by itself, and adding or removing walls rebuilds the list anyway.
     const bool followsWalls = heldContacts == HeldContacts::WhereAsked && !partsNeedHeld;
     bool others = heldIsNew;
     for (std::size_t w = 0; !others && followsWalls && w < ofHeld.walls.size() && w < walls->getSize(); ++w)
         others = ofHeld.walls[w] != needsHeld(walls->getObject(w));
     if (!others) return false;
-    if (std::ranges::any_of(grains.translation, isHeld)) return true;
+    // They may have gone, which a rank knows of its own grains only.
+    if (allRanks.areSeveral() || areHeldAmong(grains)) return true;
     ofHeld = askedOfHeld();
     heldIsNew = false;
     return false;
@@ -345,8 +351,10 @@ bool ContactSystem::needsOtherHeld(const Grains& grains) {
 
 void ContactSystem::renewHeldMasses(const Grains& grains) {
     heldMasses.clear();
-    if (!ofHeld.any()) return;
-    if (std::ranges::none_of(grains.translation, isHeld)) return;
+    // Ranks that share the scene had all grains at first, and all of those that have come.
+    const bool areHere = areHeldAmong(grains);
+    hasHeld = areHere || (sharing && hasHeld);
+    if (!areHere || !ofHeld.any()) return;
     const GrainMasses masses(grains, *species);
     heldMasses.resize(grains.size());
     for (std::uint32_t place = 0; place < grains.size(); ++place)

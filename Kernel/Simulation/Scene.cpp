@@ -242,7 +242,12 @@ LiquidLedger Scene::Inside::liquidLedger() const {
     return found;
 }
 
+/// Two bodies of different ranks are on none of them together: they are looked for when all are.
 void Scene::warnOfUnlistedContacts() const {
+    if (inside->isDistributed()) {
+        inside->unlistedAreAskedFor = true;
+        return;
+    }
     const std::string sentence =
         inside->unlisted.lookFor(contacts(), particleHandler.store(), wallHandler, getNumberOfTimeSteps());
     if (!sentence.empty()) inside->context.logger(LogLevel::Warn, "{}.", sentence);
