@@ -315,6 +315,7 @@ protected:
 
 private:
     class Inside;
+    friend class SettingNames;  // of SelfTests: all that parts of the step compare at a restart
 
     void setUp() override;
     void advanceByStep(bool another) override;
