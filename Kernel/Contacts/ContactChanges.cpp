@@ -338,9 +338,14 @@ bool ContactSystem::needsOtherHeld(const Grains& grains) {
     if (!hasHeld) return false;
     // All or none does not change by itself, and adding or removing walls rebuilds the list anyway.
     const bool followsWalls = heldContacts == HeldContacts::WhereAsked && !partsNeedHeld;
+    const auto isOther = [&](std::size_t w) {
+        const Wall& wall = walls->getObject(w);
+        const bool isListed = ofHeld.walls[w];  // membranes and walls that wear are so for good
+        return wall.keepsForces() != isListed && needsHeld(wall) != isListed;
+    };
     bool others = heldIsNew;
     for (std::size_t w = 0; !others && followsWalls && w < ofHeld.walls.size() && w < walls->getSize(); ++w)
-        others = ofHeld.walls[w] != needsHeld(walls->getObject(w));
+        others = isOther(w);
     if (!others) return false;
     // They may have gone, which a rank knows of its own grains only.
     if (allRanks.areSeveral() || areHeldAmong(grains)) return true;
