@@ -122,7 +122,8 @@ TEST(MercuryPrograms, cgParticleWall) {
     const auto contact = dpm.interactionHandler.getObject(0);
     const Vec3D position = dpm.particleHandler.getObject(0)->getPosition();
     // The contact point is on the surface of the wall here, there in the middle of the overlap.
-    const Mdouble distance = contact->getDistance(), overlap = contact->getOverlap();
+    const Mdouble distance = std::hypot(0.05, 0.95), overlap = 1 - distance;  // m
+    EXPECT_NEAR(contact->getDistance(), distance, 1e-15);
     EXPECT_NEAR((contact->getContactPoint() - position).norm(), distance, 1e-15);
     helpers::check(O->getPoint(0).getContactStress().trace(), 2e5 * overlap * distance / 16, 1e-11,
                    "Average stress");
