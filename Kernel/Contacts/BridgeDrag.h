@@ -20,19 +20,31 @@ struct BridgeSlip {
     T slipResponse, rollResponse;
 };
 
-/// The drag at the velocities that it leaves itself: with C the symmetric matrix of the resistance and P the
-/// diagonal one of the responses, (1 + P C) v = v0 and drag = -C v. (The response of the roll to the force,
-/// zero between equal grains, is left to the next step.)
+/// These motions with the drag of the bridge: with C the symmetric matrix of the resistance and P the
+/// diagonal one of the responses, (1 + P C) v = v0. (The response of the roll to the force, zero between
+/// equal grains, is left to the next step.)
+template <class T>
+struct MotionWithDrag {
+    MotionWithDrag(const BridgeResistance<T>& c, const BridgeSlip<T>& motion) {
+        const T slipBySlip = fma(motion.slipResponse, c.sliding, T(1));
+        const T rollByRoll = fma(motion.rollResponse, c.rolling, T(1));
+        const T slipByRoll = motion.slipResponse * c.coupling, rollBySlip = motion.rollResponse * c.coupling;
+        const T inverse = T(1) / (slipBySlip * rollByRoll - slipByRoll * rollBySlip);
+        slip = fma(-slipByRoll * inverse, motion.roll, (rollByRoll * inverse) * motion.slip);
+        roll = fma(-rollBySlip * inverse, motion.slip, (slipBySlip * inverse) * motion.roll);
+        slipResponse = (rollByRoll * inverse) * motion.slipResponse;
+    }
+
+    Vector<T> slip, roll;  // m/s
+    T slipResponse;        // of the slip to a force beside the drag, m/s per N
+};
+
+/// The drag at the velocities that it leaves itself: -C v.
 template <class T>
 BridgeDrag<T> bridgeDrag(const BridgeResistance<T>& c, const BridgeSlip<T>& motion, const Vector<T>& normal) {
-    const T slipBySlip = fma(motion.slipResponse, c.sliding, T(1));
-    const T rollByRoll = fma(motion.rollResponse, c.rolling, T(1));
-    const T slipByRoll = motion.slipResponse * c.coupling, rollBySlip = motion.rollResponse * c.coupling;
-    const T inverse = T(1) / (slipBySlip * rollByRoll - slipByRoll * rollBySlip);
-    const Vector<T> slip = fma(-slipByRoll * inverse, motion.roll, (rollByRoll * inverse) * motion.slip);
-    const Vector<T> roll = fma(-rollBySlip * inverse, motion.slip, (slipBySlip * inverse) * motion.roll);
-    const Vector<T> along = fma(c.coupling, slip, c.rolling * roll);
-    return {-fma(c.sliding, slip, c.coupling * roll), -cross(along, normal)};
+    const MotionWithDrag<T> with(c, motion);
+    const Vector<T> along = fma(c.coupling, with.slip, c.rolling * with.roll);
+    return {-fma(c.sliding, with.slip, c.coupling * with.roll), -cross(along, normal)};
 }
 
 }  // namespace pendular

@@ -343,6 +343,7 @@ bool ContactSystem::needsOtherHeld(const Grains& grains) {
         const bool isListed = ofHeld.walls[w];  // membranes and walls that wear are so for good
         return wall.keepsForces() != isListed && needsHeld(wall) != isListed;
     };
+    heldIsNew = heldIsNew && askedOfHeld() != ofHeld;
     bool others = heldIsNew;
     for (std::size_t w = 0; !others && followsWalls && w < ofHeld.walls.size() && w < walls->getSize(); ++w)
         others = isOther(w);
@@ -356,7 +357,7 @@ bool ContactSystem::needsOtherHeld(const Grains& grains) {
 
 void ContactSystem::renewHeldMasses(const Grains& grains) {
     heldMasses.clear();
-    // Ranks that share the scene had all grains at first, and all of those that have come.
+    // Ranks that share the scene note it in distribute(), where each has all grains, and of those that come.
     const bool areHere = areHeldAmong(grains);
     hasHeld = areHere || (sharing && hasHeld);
     if (!areHere || !ofHeld.any()) return;

@@ -157,8 +157,8 @@ public:
         Vector<Pack> tangential = zero(), lastTorque = zero();
         if constexpr (resists >= BridgeResists::Rolling) lastTorque = loadTorques(block);
         if constexpr (Friction::acts) {
-            tangential = computeFriction(number, block, geometryOf, geometry, g, last.leverless, touching,
-                                         begins, normal);
+            tangential = computeFriction(number, block, geometryOf, geometry, g, last.leverless, lastTorque,
+                                         touching, begins, normal);
         }
         if constexpr (resists >= BridgeResists::Sliding)
             tangential = tangential + computeDrag(block, g, last.leverless, lastTorque, bridged,
@@ -336,8 +336,9 @@ private:
     template <class GeometryOf, class Geometry>
     Vector<Pack> computeFriction([[maybe_unused]] std::size_t number, std::size_t block,
                                  [[maybe_unused]] const GeometryOf& geometryOf, const Geometry& geometry,
-                                 ContactGeometry<Pack>& g, const Vector<Pack>& lastLeverless, Mask touching,
-                                 Mask begins, const NormalPart& normal) {
+                                 ContactGeometry<Pack>& g, const Vector<Pack>& lastLeverless,
+                                 [[maybe_unused]] const Vector<Pack>& lastTorque, Mask touching, Mask begins,
+                                 const NormalPart& normal) {
         if constexpr (resists == BridgeResists::Nothing) geometry.completeSpins(g);
         const Pack approach = dot(g.velocity, g.normal);
         const Vector<Pack> sideways = fma(-approach, g.normal, g.velocity);
@@ -347,12 +348,21 @@ private:
         if constexpr (ShapedGeometry<Geometry>)
             response = Pack(0.5 * implicitStep) * geometry.slidingResponse();
         else response = Pack(3.5 * 0.5 * implicitStep) * g.inverseMass;
+        if constexpr (resists >= BridgeResists::Sliding) response = implicitNeighbours<Adhesion> * response;
         const Vector<Pack> lever = fma(-response, lastLeverless, g.spinLever);
         const double before = timing.timesTouches ? 0.5 : 1;  // steps for which the spring has still to move
         Slip<Pack> slip{.velocity = sideways + cross(lever, g.normal),
                         .timeBefore = timeStep * select(begins, normal.timing.before, Pack(before)),
                         .timeAfter = Pack(timeStep * (1 - before)),
                         .response = response};
+        // The last force that was taken out is that of the bridge, too: its drag is part of the motion.
+        [[maybe_unused]] BridgeSlip<Pack> freely;
+        if constexpr (resists >= BridgeResists::Sliding) {
+            freely = {slip.velocity, zero(), response, Pack(0)};
+            if constexpr (resists >= BridgeResists::Rolling) setRoll(freely, g, zero() - lastTorque);
+            const MotionWithDrag<Pack> with(normal.resistance, freely);
+            slip.velocity = with.slip, slip.response = with.slipResponse;
+        }
         if (springsAhead > 0) [[unlikely]] {
             const Pack ahead = springsAhead;
             slip.timeBefore = select(maskFromBits(store.states[number].touching), -ahead, Pack(0));
@@ -379,8 +389,14 @@ private:
                         copyOf(force.force.z), copyOf(force.spring.x), copyOf(force.spring.y),
                         copyOf(force.spring.z), copyOf(force.stiffness), force.slides | force.slips,
                         touching);
-        if constexpr (HasContactTorque<Friction>)
-            computeRotation(block, geometry, g, touching, normal, slip, history);
+        if constexpr (HasContactTorque<Friction>) {
+            Vector<Pack> byDrag = zero();  // m/s, R* times the change of the relative spin
+            if constexpr (resists >= BridgeResists::Rolling) {
+                freely.slip = fma(response, select(touching, force.force, zero()), freely.slip);
+                byDrag = cross(MotionWithDrag<Pack>(normal.resistance, freely).roll - freely.roll, g.normal);
+            }
+            computeRotation(block, geometry, g, touching, normal, slip, byDrag, history);
+        }
         memory.history.store<History>(block, selectColumns<History>(touching, history));
         return select(touching, force.force, zero());
     }
@@ -426,10 +442,8 @@ private:
                                 .slipResponse = response,
                                 .rollResponse = Pack(0)};
         if constexpr (resists >= BridgeResists::Rolling) {
-            motion.rollResponse = Pack(0.5 * implicitStep) * g.rotationResponse;
             if constexpr (HasContactTorque<Friction>) own = loadTorques(block);
-            motion.roll = cross(g.normal, g.effectiveRadius * g.spinDifference +
-                                              (motion.rollResponse / g.effectiveRadius) * (own - lastTorque));
+            setRoll(motion, g, own - lastTorque);
         }
         BridgeDrag<Pack> drag = bridgeDrag(resistance, motion, g.normal);
         drag = {select(bridged, drag.force, zero()), select(bridged, drag.torque, zero())};
@@ -440,19 +454,30 @@ private:
         return drag.force;
     }
 
+    /// The roll of two grains, with the change (N m, on body 1) of the torque of their contact.
+    void setRoll(BridgeSlip<Pack>& motion, const ContactGeometry<Pack>& g, const Vector<Pack>& change) const {
+        motion.rollResponse = Pack(0.5 * implicitStep) * g.rotationResponse;
+        motion.roll = cross(g.normal, g.effectiveRadius * g.spinDifference +
+                                          (motion.rollResponse / g.effectiveRadius) * change);
+    }
+
     /// Writes the contact's own torque. Velocity and response are those of R* times the relative spin, as in
     /// computeFriction.
     /// @param sliding the times of its Slip are those of the rotation
+    /// @param byDrag m/s, of the velocity, by the drag of a bridge
     template <class Geometry, class History>
     void computeRotation(std::size_t block, [[maybe_unused]] const Geometry& geometry,
                          const ContactGeometry<Pack>& g, Mask touching, const NormalPart& normal,
-                         const Slip<Pack>& sliding, History& history) {
+                         const Slip<Pack>& sliding, [[maybe_unused]] const Vector<Pack>& byDrag,
+                         History& history) {
         const Pack response = Pack(0.5 * implicitStep) * g.rotationResponse;
         Vector<Pack> torque;
         if constexpr (ShapedGeometry<Geometry>) torque = geometry.lastTorque(memory, block);
         else torque = loadTorques(block);
         const Vector<Pack> last = (Pack(1) / g.effectiveRadius) * torque;
-        const Slip<Pack> turning{.velocity = g.effectiveRadius * g.spinDifference - response * last,
+        Vector<Pack> velocity = g.effectiveRadius * g.spinDifference - response * last;
+        if constexpr (resists >= BridgeResists::Rolling) velocity = velocity + byDrag;
+        const Slip<Pack> turning{.velocity = velocity,
                                  .timeBefore = sliding.timeBefore,
                                  .timeAfter = sliding.timeAfter,
                                  .response = response};

@@ -77,6 +77,7 @@ bool ContactSystem::newListPays() { return allRanks.any(idleLanes.newListPays(co
 void ContactSystem::distribute(Grains& grains, RememberedContacts& remembered, double reach) {
     if (!sharing->areDistributed()) {
         rangeOfAll = largestRange(*species, grains);
+        hasHeld = hasHeld || areHeldAmong(grains);  // of all ranks, before the grains go to their owners
         if (sharing->rank() > 0) leaveCountsToFirstRank();
     }
     ContactMigration migration(remembered, contacts.memory, grains);

@@ -143,7 +143,7 @@ void ContactBounds::addToWall(const Term& term) {
     const WallSide& side = wallSides[term.side];
     MovedWall& wall = movedWalls[side.wall];
     note(term, wall.block);
-    wall.block.ownDashpot = 0;
+    wall.block.ownDashpot = 0, wall.block.neighbours = infinity;  // of the masses of the grains alone
     const ContactStiffness& s = term.stiffness;
     const double share = 1 + 1 / t;
     if (wall.vertices.membrane) return addToVertices(side, s, share);

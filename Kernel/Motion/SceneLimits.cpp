@@ -332,8 +332,14 @@ double limitOfMovedWalls(const ContactLaws& species, const GrainSizes& grains, c
 }
 
 double stepOfFastestPair(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls) {
-    return 0.9 / std::numbers::pi * shortestHalfPeriod(species, grains, walls) *
-           std::sqrt(grains.response.inertia);
+    double neighbours = infinity;  // s
+    forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
+        neighbours =
+            std::min(neighbours, implicitNeighboursLimit(contactStiffness(laws, bodies, mass), mass));
+    });
+    return std::min(0.9 / std::numbers::pi * shortestHalfPeriod(species, grains, walls) *
+                        std::sqrt(grains.response.inertia),
+                    stabilityMargin * neighbours);
 }
 
 void checkScene(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,

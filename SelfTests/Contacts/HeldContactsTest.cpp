@@ -565,6 +565,41 @@ TEST(HeldContacts, areAskedForOnRanksAfterGatherOnly) {
     }
 }
 
+// All ranks know of a grain that is held on one of them, so that all reach the same calls: as they gather,
+// and where a hook asks for its contacts.
+TEST(HeldContacts, ofAGrainThatOneRankHas) {
+    class Column : public HookedGrains<Linear> {
+    public:
+        explicit Column(std::function<void(Column&)> ask)
+            : HookedGrains<Linear>(linear(), column(), dt), asks(std::move(ask)) {
+            this->hook = [this](HookedGrains<Linear>&) {
+                if (getNumberOfTimeSteps() != 20) return;
+                gather();
+                asks(*this);
+            };
+            setGravity({0, 0, -9.81});
+        }
+
+    private:
+        static std::vector<GrainMotion> column() {
+            std::vector<GrainMotion> grains;
+            for (int n = 0; n < 40; ++n)
+                grains.push_back({.radius = r, .position = {0, 0, n * (2 * r - deep)}, .fixed = n == 0});
+            return grains;
+        }
+        std::function<void(Column&)> asks;
+    };
+    const std::vector<std::function<void(Column&)>> each{
+        [](Column&) {}, [](Column& scene) { scene.setHeldContacts(HeldContacts::All); }};
+    for (const auto& asks : each)
+        ranks::expectSameOnRanks(100,
+                                 [&](auto&& use) {
+                                     Column scene(asks);
+                                     use(scene);
+                                 },
+                                 {2, 3});
+}
+
 // Grains of different ranks are looked for when all are together, and the first rank tells of them.
 TEST(HeldContacts, areToldOfOnRanksWhenGrainsAreTogether) {
     const Lines lines;

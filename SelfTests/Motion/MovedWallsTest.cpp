@@ -11,6 +11,7 @@
 
 #include "Kernel/Simulation/StabilityAdvice.h"
 #include "Kernel/Simulation/StepForError.h"
+#include "Kernel/Species/Adhesion/ParhamiMcMeekingSinter.h"
 #include "Kernel/Walls/Membrane.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
 #include "SelfTests/Support/Refusal.h"
@@ -353,6 +354,22 @@ TEST(MovedWalls, aPistonOnHeldGrainsAloneHasItsOwnLimit) {
     OnHeldGrains none(3, m, 1);
     none.setHeldContacts(HeldContacts::None);  // nothing carries it
     EXPECT_EQ(none.stabilityLimit(), infinity);
+}
+
+// Of the dashpots at a wall that moves nothing is implicit, so that no spring beside them is bounded by how
+// many contacts they are implicit for: not by the mass of a grain, which is a millionth of the piston's.
+TEST(MovedWalls, springsBesideNecksAtAPistonAreThoseOfItsMass) {
+    using Sintering = Species<LinearViscoelastic, NoFriction, ParhamiMcMeekingSinter>;
+    Sintering species;
+    species.setDensity(density), species.setStiffness(k), species.setAdhesionCoefficient(0);
+    BodyScene<Sintering> scene(species, {{.radius = r, .position = {0, 0, 0}, .fixed = true}}, 1e-5);
+    InfiniteWall lid;
+    lid.set({0, 0, 1}, {0, 0, r - overlap});
+    lid.setPiston(1e6 * m, k * overlap);
+    scene.add(lid);
+    scene.initialise();
+    const double exact = limitOnHeld(1, 1e6 * m, 0, integrators::predictedVelocityVerlet);
+    EXPECT_NEAR(scene.stableStepOfContacts(), exact, 1e-9 * exact);
 }
 
 // The energy of velocity Verlet is kept but for 1 / (1 - (h w)^2 / 4): a speed grows by 1 / sqrt(1 - 0.9^2) =

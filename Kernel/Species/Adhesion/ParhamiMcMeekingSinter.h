@@ -38,8 +38,9 @@ struct DiffusionContact {
 /// Equal grains of radius R that nothing else moves have x^6 = x0^6 + 6 a R^2 t / b; without a first overlap
 /// the dashpot is zero, and they meet at the speed that the attraction gives them. The dashpots grow by the
 /// square of the overlap, without an end. With the default integrator they are implicit, also against those
-/// of the neighbours in a bed (implicitNeighbours), so that no step is too long for them; other integrators
-/// need steps below stableStepOfContacts(). Source: MercuryDPM's ParhamiMcMeekingSinterSpecies.
+/// of the neighbours in a bed (implicitNeighbours), so that no step is too long for the dashpots; the springs
+/// beside them need implicitNeighboursLimit(). Other integrators need steps below stableStepOfContacts().
+/// Source: MercuryDPM's ParhamiMcMeekingSinterSpecies.
 struct ParhamiMcMeekingSinter {
     static constexpr std::string_view name = "ParhamiMcMeekingSinter";
     static constexpr std::string_view summary =

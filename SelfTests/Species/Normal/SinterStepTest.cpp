@@ -308,5 +308,16 @@ TEST(SinterStep, limitsIncludeForHowManyContactsDashpotsAreImplicit) {
     expectLimit(AtRest(13, 0, 1e-3, 1e-3), AtRest::limitOfNeighbours(0));
 }
 
+// A pair of them parts like a bouncing one if the attraction is small; for an error of 2 % and more a step
+// would else be 0.9 sqrt(m* / k).
+TEST(SinterStep, stepsForAnErrorIncludeThisLimit) {
+    for (const double speed : {1e-4, 1e-2}) {
+        AtRest scene(2, 0, 0.1, 1);
+        scene.speciesHandler.getObject(0)->setAdhesionCoefficient(1e-9);
+        scene.setStepFor(0.1, speed);
+        EXPECT_LE(scene.getTimeStep(), 0.9 * AtRest::limitOfNeighbours(0)) << speed;
+    }
+}
+
 }  // namespace
 }  // namespace pendular::sinterStepTest
