@@ -348,7 +348,6 @@ private:
         if constexpr (ShapedGeometry<Geometry>)
             response = Pack(0.5 * implicitStep) * geometry.slidingResponse();
         else response = Pack(3.5 * 0.5 * implicitStep) * g.inverseMass;
-        if constexpr (resists >= BridgeResists::Sliding) response = implicitNeighbours<Adhesion> * response;
         const Vector<Pack> lever = fma(-response, lastLeverless, g.spinLever);
         const double before = timing.timesTouches ? 0.5 : 1;  // steps for which the spring has still to move
         Slip<Pack> slip{.velocity = sideways + cross(lever, g.normal),
