@@ -60,11 +60,11 @@ int main(int argc, char** argv) {
         options.apply(scene);
         scene.addPart<Draught>(Vec3D(0.5, 0, 0));
         auto* const glass = scene.speciesHandler.copyAndAddObject({});
-        glass->setDensity(2500), glass->setStiffness(1), glass->setDissipation(1e-5);
+        glass->setDensity(2500), glass->setStiffness(100), glass->setDissipation(1e-4);
         SphericalParticle grain;
         grain.setSpecies(glass), grain.setRadius(1e-4);
         auto falling = scene.particleHandler.copyAndAddObject(grain);
-        scene.setGravity({0, 0, -9.81}), scene.setTimeStep(5e-5), scene.setTimeMax(endTime);
+        scene.setGravity({0, 0, -9.81}), scene.setTimeStep(5e-6), scene.setTimeMax(endTime);
         scene.solve();
         if (!options.quiet) fmt::print("velocity: {:.4f} m/s\n", fmt::join(falling.getVelocity(), " "));
     });
