@@ -30,7 +30,7 @@ inline std::vector<std::string> everyDriver() {
 inline std::string shortOptionsOf(const std::string& driver) {
     static const std::map<std::string, std::string> options{
         {"DryingBed", "--number 100 --begin-s 0.002 --end-time-s 0.004"},
-        {"EllipsoidPacking", "--number 30 --width 4 --aspects 1 1.4 --friction 0.5"},
+        {"EllipsoidPacking", "--number 12 --width 3 --aspects 1 1.4 --friction 0.5 --stiffness 1000"},
         {"FluidisedColumn", "--cells 2 --stage-s 0.002"},
         {"HopperDischarge",
          "--number 120 --hopper-diameter-m 0.016 --orifice-m 0.01 --orifice-m 0.012 --begin-s 0.02 "
