@@ -37,10 +37,12 @@ struct SquareWell {
 
 int main(int argc, char** argv) {
     RunOptions options{.output = "UserDefinedLaw-output"};
+    double endTime = 0.05;  // s
     const DriverProgram driver{.name = "UserDefinedLaw",
                                .description = "Two grains attract each other by a law of this driver.",
                                .options = options,
-                               .files = "what the run writes"};
+                               .files = "what the run writes",
+                               .numbers = {{"end-time", "s", &endTime, notNegative, "end of the run"}}};
     return runDriver(driver, argc, argv, [&] {
         Species<HertzianViscoelastic, NoFriction, SquareWell> species;
         species.setDensity(2000);
@@ -57,7 +59,7 @@ int main(int argc, char** argv) {
         grain.setPosition({1.05e-3, 0, 0});  // a gap of 50 micrometres, inside the well
         auto second = scene.particleHandler.copyAndAddObject(grain);
         scene.setTimeStep(1e-6);
-        scene.setTimeMax(0.05);
+        scene.setTimeMax(endTime);
         scene.solve();
         if (options.quiet) return;
         fmt::print("{}: gap after {} s: {:.4g} m\n", species.getName(), scene.getTimeMax(),

@@ -37,10 +37,12 @@ struct Torus final : RigidWall {
 
 int main(int argc, char** argv) {
     RunOptions options{.output = "UserDefinedWall-output"};
+    double endTime = 1;  // s
     const DriverProgram driver{.name = "UserDefinedWall",
                                .description = "A ball rolls in a torus, a wall of this driver.",
                                .options = options,
-                               .files = "what the run writes"};
+                               .files = "what the run writes",
+                               .numbers = {{"end-time", "s", &endTime, notNegative, "end of the run"}}};
     return runDriver(driver, argc, argv, [&] {
         Simulation<LinearViscoelasticSlidingFrictionSpecies> scene;
         options.apply(scene);
@@ -52,7 +54,7 @@ int main(int argc, char** argv) {
         SphericalParticle ball;  // it begins 0.02 rad from the lowest point, along the ring and across it
         ball.setSpecies(glass), ball.setRadius(0.005), ball.setPosition({1.3e-3, -0.064984, 3e-4});
         auto rolling = scene.particleHandler.copyAndAddObject(ball);
-        scene.setGravity({0, -9.81, 0}), scene.setTimeStep(1e-5), scene.setTimeMax(1);
+        scene.setGravity({0, -9.81, 0}), scene.setTimeStep(1e-5), scene.setTimeMax(endTime);
         scene.solve();
         if (!options.quiet) fmt::print("position: {:.7f} m\n", fmt::join(rolling.getPosition(), " "));
     });

@@ -41,7 +41,7 @@ inline std::string shortOptionsOf(const std::string& driver) {
          "--number 50 --hopper-diameter-m 0.016 --shares 1 0 0 0 --orifice-m 0.012 0.015 "
          "--elastic-modulus-Pa 1e6 --begin-s 0.06 --end-time-s 0.12"},
         {"Penetration", "--number 120 --softening 100 --end-time-s 0.001"},
-        {"RodPacking", "--number 30 --width 3.5 --aspects 1 1.4"},
+        {"RodPacking", "--number 12 --width 3.5 --aspects 1 1.4 --stiffness 1000"},
         {"ShatteringPlate", "--plate-radius-m 0.008 --end-time-s 0.0003"},
         {"RotatingDrum", "--number 120 --softening 1000 --end-time-s 0.001"},
         {"ShearCell", "--number 108 --stiffness 1e4 --strain 0.2 --interval-strain 0.1"},
@@ -53,7 +53,9 @@ inline std::string shortOptionsOf(const std::string& driver) {
         {"TriaxialTest",
          "--number 64 --stiffness 1e3 --inertial-number 0.05 --strain 0.1 --interval-strain 0.05"},
         {"TriaxialSleeve", "--number 100 --inertial-number 0.03 --strain 0.05 --interval-strain 0.01"},
+        {"UserDefinedLaw", "--end-time-s 0.005"},
         {"UserDefinedPart", "--end-time-s 0.01"},
+        {"UserDefinedWall", "--end-time-s 0.05"},
         {"WetWallCollision", "--speeds-m/s 1"},
         {"WornDrum", "--end-time-s 0.02"},
         {"WornPlates", "--number 1"}};
