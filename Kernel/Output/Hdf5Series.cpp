@@ -70,7 +70,8 @@ std::vector<Hdf5Entry> readHdf5Series(const std::filesystem::path& path, const s
 void Hdf5Series::check(const std::string& name) { checkFrameIndex(indexOf(name), readIndex); }
 
 Hdf5Series::Times Hdf5Series::formerTimes(bool needed) const {
-    if (!std::filesystem::exists(indexOf(beginning))) return {};
+    std::error_code ignored;
+    if (!std::filesystem::exists(indexOf(beginning), ignored)) return {};
     try {
         return readIndex(indexOf(beginning));
     } catch (const InputError&) {

@@ -20,7 +20,8 @@ struct Frame {
 };
 
 inline PolyData readIfThere(const std::filesystem::path& path) {
-    return std::filesystem::exists(path) ? readPolyData(path) : PolyData{};
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored) ? readPolyData(path) : PolyData{};
 }
 
 /// NAME-contacts-STEP.vtp beside NAME-particles-STEP.vtp; empty if the file has another name.
@@ -36,7 +37,9 @@ inline std::filesystem::path fileBeside(const std::filesystem::path& particles, 
     const std::string name = nameBeside(particles.filename().string(), kind);
     if (name.empty()) return {};
     std::filesystem::path beside = particles.parent_path() / name;
-    if (beside.extension() == ".pvtp" && !std::filesystem::exists(beside)) beside.replace_extension(".vtp");
+    std::error_code ignored;
+    if (beside.extension() == ".pvtp" && !std::filesystem::exists(beside, ignored))
+        beside.replace_extension(".vtp");
     return beside;
 }
 

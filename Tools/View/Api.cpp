@@ -8,8 +8,10 @@
 #include <sstream>
 #include <utility>
 
+#include "Kernel/Base/FullStop.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Files/FileContent.h"
+#include "Kernel/Files/FileFault.h"
 #include "Kernel/Files/TextFile.h"
 #include "Tools/View/FieldMaps.h"
 #include "Tools/View/FramePack.h"
@@ -77,7 +79,8 @@ Reply Api::answer(const Request& request) {
     } catch (const InputError& problem) {
         reply = sentence(400, problem.what());
     } catch (const std::exception& problem) {
-        reply = sentence(500, fmt::format("The server has met a fault: {}.", problem.what()));
+        reply = sentence(
+            500, fmt::format("The server has met a fault: {}.", withoutFullStop(sentenceOf(problem))));
     }
     secure(reply, places.frameAncestors);
     return reply;
@@ -153,8 +156,8 @@ Reply Api::map(const Request& request, const RunFiles& run) {
             packMap(found->entries[number], {request.asked("field"), optional("normal"), optional("slice")})};
 }
 
-/// What this server knows of a run that it has in its queue, or has started. The locks of a run that computes,
-/// by whomever it was started, are above that.
+/// What this server knows of a run that it has in its queue, or has started. The locks of a run that
+/// computes, by whomever it was started, are above that.
 void Api::addQueue(Json& overview, const RunFiles& run) {
     const auto [state, reason, when] = queue.stateOf(run);
     const std::string told = overview["state"];

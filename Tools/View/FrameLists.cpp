@@ -18,14 +18,12 @@ std::vector<Entry> named(std::vector<Entry> entries, const std::filesystem::path
 }  // namespace
 
 std::vector<ParaViewEntry> filesOf(const OpenFolder& folder, const std::string& series) {
-    return folder.read(series, [](const std::filesystem::path& path) {
-        return named(readParaViewSeries(path), path);
-    });
+    return folder.read(
+        series, [](const std::filesystem::path& path) { return named(readParaViewSeries(path), path); });
 }
 
 std::vector<Hdf5Entry> framesIn(const OpenFolder& folder, const std::string& list) {
-    return folder.read(list,
-                       [&](const std::filesystem::path& path) { return readHdf5Series(path, list); });
+    return folder.read(list, [&](const std::filesystem::path& path) { return readHdf5Series(path, list); });
 }
 
 }  // namespace pendular::view

@@ -48,10 +48,10 @@ double now() {
 RunQueue::Outcome outcomeOf(int status) {
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM) return {"stopped", "", now()};
     if (WIFSIGNALED(status))
-        return {"failed",
-                fmt::format("it was ended by the signal {} ({})", WTERMSIG(status),
-                            strsignal(WTERMSIG(status))),
-                now()};
+        return {
+            "failed",
+            fmt::format("it was ended by the signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status))),
+            now()};
     const int code = WEXITSTATUS(status);
     if (code == 0) return {"ended", "", now()};
     if (code == 128 + SIGTERM) return {"stopped", "", now()};
@@ -136,9 +136,10 @@ bool RunQueue::stopDriver(const std::string& id) const {
     if (driver <= 1 || isServer(driver)) return false;
     if (kill(driver, SIGTERM) == 0) return true;
     if (errno == EPERM)
-        throw InputError(fmt::format(
-            "This run is computed by the process {}, which belongs to another user; only that one can stop it.",
-            driver));
+        throw InputError(
+            fmt::format("This run is computed by the process {}, which belongs to another user; only that "
+                        "one can stop it.",
+                        driver));
     return false;
 }
 
@@ -207,8 +208,8 @@ std::vector<std::string> RunQueue::waiting() {
     return ids;
 }
 
-/// What is on record is what is started: it is written while nothing else can start there. The lock of the log
-/// goes on to the process; the others are to be free for it.
+/// What is on record is what is started: it is written while nothing else can start there. The lock of the
+/// log goes on to the process; the others are to be free for it.
 pid_t RunQueue::begin(const Job& job, const fs::path& program) {
     const OpenFolder& folder = *job.run.folder;
     const bool isFirst = !folder.hasFile(logFile);

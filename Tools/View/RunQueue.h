@@ -15,9 +15,9 @@
 
 namespace pendular::view {
 
-/// Starts runs one after another, or a few at once; stops them, and resumes them. A run that is under way does
-/// not end with this server. Several servers may serve one folder, and programs that no server has started may
-/// run in it: StartLocks.h keeps them apart.
+/// Starts runs one after another, or a few at once; stops them, and resumes them. A run that is under way
+/// does not end with this server. Several servers may serve one folder, and programs that no server has
+/// started may run in it: StartLocks.h keeps them apart.
 class RunQueue {
 public:
     using Json = nlohmann::ordered_json;

@@ -148,18 +148,18 @@ std::uintmax_t bytesOf(const RunFiles& run, bool isWritten) {
 
 Json overviewOf(const RunFiles& run, const State& state) {
     const Json start = startOf(run);
-    return {{"id", run.id},
-            {"state", state.word},
-            {"reason", state.reason},
-            {"driver", start.is_object() ? start["driver"] : Json(nullptr)},
-            {"time", numberOf(state.summary, "time")},
-            {"endTime", numberOf(state.summary, "end time")},
-            {"grains", numberOf(state.summary, "grains")},
-            {"healthy", state.summary ? Json(state.summary->content.complaints().empty()) : Json(nullptr)},
-            {"bytes", bytesOf(run, state.word == "running" || state.word == "preparing")},
-            {"changed",
-             run.folder->changed(state.isPreparation ? RunFiles::preparationFile(SummaryFile::ending)
-                                                     : run.file(SummaryFile::ending))}};
+    return {
+        {"id", run.id},
+        {"state", state.word},
+        {"reason", state.reason},
+        {"driver", start.is_object() ? start["driver"] : Json(nullptr)},
+        {"time", numberOf(state.summary, "time")},
+        {"endTime", numberOf(state.summary, "end time")},
+        {"grains", numberOf(state.summary, "grains")},
+        {"healthy", state.summary ? Json(state.summary->content.complaints().empty()) : Json(nullptr)},
+        {"bytes", bytesOf(run, state.word == "running" || state.word == "preparing")},
+        {"changed", run.folder->changed(state.isPreparation ? RunFiles::preparationFile(SummaryFile::ending)
+                                                            : run.file(SummaryFile::ending))}};
 }
 
 /// NAME.csv and, of a run that is on its way, NAME.csv.part: as NAME.csv.

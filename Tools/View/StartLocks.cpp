@@ -40,8 +40,8 @@ void refuseLive(const RunFiles& run) {
                         processOf(by.preparation)));
     if (by.run != 0) throw InputError(fmt::format("This run is under way{}.", processOf(by.run)));
     if (by.folder != 0)
-        throw InputError(fmt::format("This run, or another one in its folder, is under way{}.",
-                                     processOf(by.folder)));
+        throw InputError(
+            fmt::format("This run, or another one in its folder, is under way{}.", processOf(by.folder)));
 }
 
 }  // namespace
@@ -61,7 +61,8 @@ StartLocks::StartLocks(const RunFiles& run) {
 }
 
 Descriptor lockTurn(const OpenFolder& folder) {
-    return lockFile(folder, startFile, "This run, or another one in its folder, waits in the queue of a server");
+    return lockFile(folder, startFile,
+                    "This run, or another one in its folder, waits in the queue of a server");
 }
 
 Descriptor lockLog(const OpenFolder& folder) {
