@@ -140,6 +140,13 @@ def test_the_form_is_checked_by_the_drivers_own_description(serve, root):
                          ({"--grains": "/etc/passwd"}, "cannot be given"), ({"--restart": "x"}, "cannot be given"), ({"--resume": "true"}, "cannot be given"),
                          ({"--end-time-s": "1\n2"}, "no text"), ({"--end-time-s": 1}, "must be a text"), ({"--end-time-s": "1" * 1000}, "longer than")):
         assert words in refusal(server, "start", driver="RotatingDrum", name="", options=wrong), wrong
+    # What the driver refuses when it starts is refused before: not-a-number, infinity, what is out of the range of a usual option.
+    for option, value, words in (("--end-time-s", "nan", "not a finite number"), ("--end-time-s", "-1", "out of range"), ("--end-time-s", "inf", "not a finite number"),
+                                 ("--interval-s", "0", "out of range"), ("--interval-s", "NaN", "not a finite number"), ("--number", "0", "out of range"),
+                                 ("--softening", "-2", "out of range"), ("--speed-rad/s", "nan", "not a finite number"), ("--energy-interval-s", "-1", "out of range"),
+                                 ("--end-time-s", "1e999", "no number")):
+        for path in ("check", "start"):
+            assert words in refusal(server, path, driver="RotatingDrum", name="new", options={option: value}), (path, option, value)
     for name in ("../x", "a/b", ".x", "a b", "x" * 200, "-", "a;b"):
         if name == "-":
             continue
