@@ -147,7 +147,7 @@ def test_runs_that_waited_for_a_server_that_has_ended_can_be_started(servers, en
 def test_the_options_on_record_are_those_that_compute(servers, root, drivers):
     option = {"name": "--x", "type": "number", "unit": "", "text": "", "default": "1", "several": False, "choices": [], "excludes": [], "needs": [], "path": False}
     told = json.dumps({"driver": "Options", "description": "", "options": [option]})
-    program = driver_of(drivers, "Options", ("", "echo \"$@\""))
+    program = driver_of(drivers, "Options", ("", "echo \"$@\"; pwd"))
     program.write_text(program.read_text().replace(json.dumps({"driver": "Options", "description": "", "options": []}), told))
     server = servers()
     run = server.post("start", driver="Options", name="options", options={"--x": "1"})["id"]
@@ -160,7 +160,8 @@ def test_the_options_on_record_are_those_that_compute(servers, root, drivers):
     server.post("stop", id=long)
     log = server.wait_for(run, "ended")["log"]
     assert json.loads((root / "options/view-start.json").read_text())["options"] == {"--x": "2"}
-    assert "--x=1" in log and "--x=2 --output" in log and "--resume" in log and "--x=3" not in log
+    assert str(root / "options") in log
+    assert "--x=1" in log and "--x=2 --output=." in log and "--resume" in log and "--x=3" not in log
 
 
 def test_a_start_on_a_full_disk_leaves_no_folder(root, drivers, tmp_path):

@@ -12,6 +12,7 @@
 #include <set>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Files/TextFile.h"
@@ -64,7 +65,12 @@ Json numberOf(const std::optional<OpenSummary>& summary, std::string_view quanti
 struct State {
     std::string word, reason;
     bool isPreparation = false;
+    bool isResumed = false;  // it computes, and its summary is still that of its part before
     std::optional<OpenSummary> summary{};
+
+    [[nodiscard]] std::vector<std::string> complaints() const {
+        return summary && !isResumed ? summary->content.complaints() : std::vector<std::string>();
+    }
 };
 
 /// What a run has said of its end in its summary; empty: nothing.
@@ -101,7 +107,8 @@ State stateOf(const RunFiles& run, const Locks& locks) {
     else describeSilence(state, run);
     if (state.word == "waiting")
         state.reason = fmt::format("it waits in the queue of another server (process {})", by.turn);
-    else if (state.word == "running" || state.word == "preparing") state.reason.clear();
+    state.isResumed = !said.empty() && (state.word == "running" || state.word == "preparing");
+    if (state.isResumed) state.reason.clear();
     return state;
 }
 
@@ -156,7 +163,7 @@ Json overviewOf(const RunFiles& run, const State& state) {
         {"time", numberOf(state.summary, "time")},
         {"endTime", numberOf(state.summary, "end time")},
         {"grains", numberOf(state.summary, "grains")},
-        {"healthy", state.summary ? Json(state.summary->content.complaints().empty()) : Json(nullptr)},
+        {"healthy", state.summary && !state.isResumed ? Json(state.complaints().empty()) : Json(nullptr)},
         {"bytes", bytesOf(run, state.word == "running" || state.word == "preparing")},
         {"changed", run.folder->changed(state.isPreparation ? RunFiles::preparationFile(SummaryFile::ending)
                                                             : run.file(SummaryFile::ending))}};
@@ -240,7 +247,7 @@ Json details(const RunFiles& run) {
         const SummaryFile& summary = state.summary->content;
         for (const SummaryFile::Row& row : summary.rows())
             all["rows"].push_back({row.quantity, row.value, row.unit});
-        all["complaints"] = summary.complaints();
+        all["complaints"] = state.complaints();
         all["remark"] = summary.remark();
     }
     try {
