@@ -55,7 +55,7 @@ def test_stopped_and_resumed_it_leaves_the_bytes_of_an_unbroken_run(serve, root,
         time.sleep(0.02)
     server.post("stop", id=run)
     stopped = server.wait_for(run, "stopped", "ended")
-    assert stopped["state"] == "stopped" and 0 < stopped["time"] < 0.12
+    assert stopped["state"] == "stopped" and 0 <= stopped["time"] < 0.12  # 0: before its first step
     server.post("resume", id=run, options={"--threads": "2"})
     assert server.wait_for(run, "ended", "failed")["state"] == "ended"
     assert bytes_of(root / "broken") == bytes_of(tmp_path / "whole")

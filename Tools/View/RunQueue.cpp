@@ -135,8 +135,10 @@ bool RunQueue::stopDriver(const std::string& id) const {
     for (const auto& [process, job] : running)
         if (job.run.id == id) return kill(process, SIGTERM) == 0;
     const auto run = runs.find(id);  // not started by this server
-    const pid_t driver = run ? LockedBy(*run, Locks()).driver() : 0;
-    if (driver <= 1 || isServer(driver)) return false;
+    if (!run) return false;
+    const LockedBy by(*run, Locks());
+    const pid_t driver = by.driver() != 0 && !isServer(by.driver()) ? by.driver() : startedIn(*run->folder);
+    if (driver <= 1) return false;
     if (kill(driver, SIGTERM) == 0) return true;
     if (errno == EPERM)
         throw InputError(
@@ -158,8 +160,8 @@ std::string RunQueue::stop(const std::string& id) {
     const LockedBy by(*run, Locks());
     if (by.log != 0)
         throw InputError(
-            fmt::format("This run was started by another server (process {}), and has no lock of its own by "
-                        "which it could be stopped from here: stop it there.",
+            fmt::format("This run was started by another server (process {}), and its process cannot be seen "
+                        "from here: stop it there.",
                         by.log));
     if (by.turn != 0)
         throw InputError(fmt::format(

@@ -65,8 +65,8 @@ Json numberOf(const std::optional<OpenSummary>& summary, std::string_view quanti
 struct State {
     std::string word, reason;
     bool isPreparation = false;
-    bool isResumed = false;  // it computes, and its summary is still that of its part before
     std::optional<OpenSummary> summary{};
+    bool isResumed = false;  // it computes, and its summary is still that of its part before
 
     [[nodiscard]] std::vector<std::string> complaints() const {
         return summary && !isResumed ? summary->content.complaints() : std::vector<std::string>();
