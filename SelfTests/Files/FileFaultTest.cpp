@@ -53,7 +53,8 @@ TEST(FileFault, namesPathAndReason) {
     std::ofstream(file) << "text";
     EXPECT_EQ(sizeOf(file), 4u);
     expectSentence(refusal([&] { static_cast<void>(sizeOf(none)); }), none, "No such file or directory");
-    expectSentence(refusal([&] { renameFile(file, folder.path()); }), file, "Is a directory");
+    fs::create_directory(folder.path() / "empty");
+    expectSentence(refusal([&] { renameFile(file, folder.path() / "empty"); }), file, "Is a directory");
     expectSentence(refusal([&] { makeFolder(file / "inner"); }), file / "inner", "Not a directory");
     makeFolder(folder.path() / "a" / "b");
     EXPECT_TRUE(fs::is_directory(folder.path() / "a" / "b"));
