@@ -4,6 +4,7 @@
 
 #include <cerrno>
 
+#include "Kernel/Files/FileFault.h"
 #include "Kernel/Files/OwnFile.h"
 #include "Kernel/Files/WrittenBeside.h"
 #include "Kernel/State/Hdf5Fault.h"
@@ -167,7 +168,7 @@ std::optional<TableShape> Hdf5File::shapeOf(const std::string& name) const {
     // Nothing is believed of a table that promises more than there is. Deflate packs 1032 bytes into one.
     const double promised = static_cast<double>(extent[0]) * static_cast<double>(extent[1]) *
                             static_cast<double>(H5Tget_size(type)),
-                 there = static_cast<double>(std::filesystem::file_size(place));
+                 there = static_cast<double>(sizeOf(place));
     const auto isPacked = [&] {  // to ask takes longer than all the rest
         return H5Pget_nfilters(Object(H5Dget_create_plist(set), H5Pclose)) > 0;
     };
