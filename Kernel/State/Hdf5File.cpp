@@ -195,8 +195,9 @@ std::optional<TableShape> Hdf5File::shapeOf(const std::string& name) const {
     std::array<hsize_t, 2> extent{0, 1};
     if (const int axes = H5Sget_simple_extent_ndims(space); axes != 1 && axes != 2) return {};
     H5Sget_simple_extent_dims(space, extent.data(), nullptr);
-    // Nothing is believed of a table that promises more than there is.
-    const double promised = static_cast<double>(extent[0]) * static_cast<double>(extent[1]) *
+    // Nothing is believed of a table that promises more than there is, also where its rows are to be empty.
+    const double promised = static_cast<double>(extent[0]) *
+                            static_cast<double>(std::max<hsize_t>(extent[1], 1)) *
                             static_cast<double>(H5Tget_size(type)),
                  stored = static_cast<double>(H5Dget_storage_size(set)),
                  fileSize = static_cast<double>(std::filesystem::file_size(place));

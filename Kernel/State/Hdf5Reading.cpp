@@ -37,7 +37,7 @@ std::size_t bytesOf(const TableShape& shape) { return shape.rows * shape.columns
 ReadingProcess::Limits limitsFor(const std::filesystem::path& file) {
     std::error_code ignored;
     const std::uintmax_t bytes = std::filesystem::file_size(file, ignored);
-    return {memoryOfLibrary, 60 + static_cast<unsigned>((ignored ? 0 : bytes) / bytesPerSecond)};
+    return {memoryOfLibrary, 20 + static_cast<unsigned>((ignored ? 0 : bytes) / bytesPerSecond)};
 }
 
 }  // namespace
