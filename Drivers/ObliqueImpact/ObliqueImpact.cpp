@@ -125,12 +125,13 @@ private:
     /// is of the rows that are kept.
     void leaveNoEnergy(const std::filesystem::path& table) const {
         const std::filesystem::path part = table.string() + ".part";
-        if (kept > 0 && (std::filesystem::exists(table) || std::filesystem::exists(part)))
+        std::error_code ignored;
+        if (kept > 0 && (std::filesystem::exists(table, ignored) || std::filesystem::exists(part, ignored)))
             throw InputError(fmt::format(
                 "ObliqueImpact: the run of {} was one with --energy; --resume needs that option too.",
                 table.string()));
-        std::filesystem::remove(table);
-        std::filesystem::remove(part);
+        std::filesystem::remove(table, ignored);
+        std::filesystem::remove(part, ignored);
     }
 
     std::size_t kept = 0;

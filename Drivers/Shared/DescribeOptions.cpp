@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 
@@ -89,19 +91,51 @@ std::string unitOf(const DriverProgram& driver, const CLI::Option& option, const
 /// As its driver says: type_name(fileName).
 bool isPath(const CLI::Option& option) { return kindOf(option) == fileName || kindOf(option) == folderName; }
 
-/// Of the options that all drivers have; runDriver() checks them.
-std::map<std::string, Range> rangesOf(const DriverProgram& driver) {
-    std::map<std::string, Range> ranges{{"--threads", {1, 4096}}};
+/// Of options that several drivers have, by their names, which tell quantity and unit: the widest range that
+/// one of them allows (checkRun(), the laws' fields). A NumberOption has its own.
+std::map<std::string, Range> usualRanges() {
+    std::map<std::string, Range> ranges{
+        {"--threads", {1, 4096}},         {"--number", {1, 1e8}},
+        {"--poisson-ratio", {-1, 0.5}},   {"--plate-poisson-ratio", {-1, 0.5}},
+        {"--restitution", {0, 1}},        {"--interval-s", positive},
+        {"--contact-angle-deg", {0, 180}}};
     for (const char* interval : {"restart", "paraview", "hdf5", "energy", "wall-force"})
         ranges[fmt::format("--{}-interval-s", interval)] = notNegative;
-    for (const NumberOption& number : driver.numbers) ranges[number.option()] = number.allowed;
+    for (const char* name :
+         {"end-time-s", "time-max-s", "time-step-s", "begin-s", "friction", "volume-m3",
+          "surface-tension-N/m", "viscosity-Pa-s", "layer-m", "roughness-m", "advise-within-percent"})
+        ranges[fmt::format("--{}", name)] = notNegative;
+    for (const char* name : {"softening", "radius-m", "radius1-m", "radius2-m", "orifice-m",
+                             "hopper-diameter-m", "grain-diameter-m", "density-kg/m3", "liquid-density-kg/m3",
+                             "elastic-modulus-Pa", "plate-elastic-modulus-Pa"})
+        ranges[fmt::format("--{}", name)] = positive;
     return ranges;
+}
+
+/// As CLI11 checks it: "FLOAT:FLOAT in [0.001 - 89.999]".
+std::optional<Range> checkedRange(const CLI::Option& option) {
+    const std::string type = option.get_type_name();
+    const std::size_t begin = type.find(" in [");
+    Range range{};
+    if (begin == type.npos ||
+        std::sscanf(type.c_str() + begin, " in [%lf - %lf]", &range.lowest, &range.highest) != 2)
+        return {};
+    return range;
+}
+
+std::optional<Range> rangeFor(const DriverProgram& driver, const CLI::Option& option,
+                              const std::string& name) {
+    for (const NumberOption& number : driver.numbers)
+        if (number.option() == name) return number.allowed;
+    if (const auto checked = checkedRange(option)) return checked;
+    static const std::map<std::string, Range> usual = usualRanges();
+    const auto known = usual.find(name);
+    return known == usual.end() ? std::nullopt : std::optional(known->second);
 }
 
 }  // namespace
 
 std::string describeOptions(const DriverProgram& driver, const CLI::App& app) {
-    const std::map<std::string, Range> ranges = rangesOf(driver);
     Json options = Json::array();
     for (const CLI::Option* option : app.get_options()) {
         if (option->get_lnames().empty() || option->get_group().empty()) continue;
@@ -117,8 +151,7 @@ std::string describeOptions(const DriverProgram& driver, const CLI::App& app) {
                  {"excludes", namesOf(option->get_excludes())},
                  {"needs", namesOf(option->get_needs())},
                  {"path", isPath(*option)}};
-        if (const auto known = ranges.find(name); known != ranges.end())
-            row["range"] = rangeOf(known->second);
+        if (const auto range = rangeFor(driver, *option, name)) row["range"] = rangeOf(*range);
         options.push_back(std::move(row));
     }
     const Json all{{"driver", driver.name}, {"description", driver.description}, {"options", options}};

@@ -18,7 +18,8 @@ struct DriverProgram;
 /// text    what --help says
 /// default as a text, of several values with commas between; empty: none
 /// several whether it takes more than one value
-/// range   of each value where it is known: lowest, highest (null: none), lowestIncluded, highestIncluded
+/// range   of each value where it is known: lowest, highest (null: none), lowestIncluded, highestIncluded;
+///         a driver may allow less, by what else it is given
 /// choices the texts that it takes, where they are listed
 /// excludes, needs  names of other options
 /// path    whether it names a file or a folder

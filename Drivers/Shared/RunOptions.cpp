@@ -32,7 +32,8 @@ std::string RunOptions::nameOf(const std::string& run) const {
 std::filesystem::path RunOptions::restartSource(const std::string& run) const {
     if (!restart.empty()) return restart;
     const std::filesystem::path own = restartFileOf(nameOf(run));
-    return resume && std::filesystem::exists(own) ? own : std::filesystem::path();
+    std::error_code ignored;
+    return resume && std::filesystem::exists(own, ignored) ? own : std::filesystem::path();
 }
 
 void RunOptions::forgetAtStart(Scene& scene, const std::vector<std::string>& runs) const {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "Drivers/Shared/GrainLattice.h"
+#include "Kernel/Files/FileFault.h"
 #include "Kernel/Particles/GrainFile.h"
 #include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Species/Adhesion/NoAdhesion.h"
@@ -75,8 +76,9 @@ std::vector<GrainRow> kept(const std::filesystem::path& folder, const std::strin
                            const std::function<std::vector<GrainRow>()>& make) {
     if (folder.empty()) return make();
     const std::filesystem::path file = folder / (name + ".txt");
-    if (!std::filesystem::exists(file)) {
-        std::filesystem::create_directories(folder);
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) {
+        makeFolder(folder);
         writeGrainFile(file, make());
     }
     return readGrainFile(file);

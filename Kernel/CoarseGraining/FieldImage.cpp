@@ -135,10 +135,12 @@ FieldImage readHdf5(const std::filesystem::path& path, const std::string& field)
 
 }  // namespace
 
-FieldImage readFieldImage(const std::filesystem::path& path, const std::string& field) {
+FieldImage readFieldImage(const std::filesystem::path& path, const std::string& field,
+                          const std::filesystem::path& named) {
+    const std::filesystem::path& name = named.empty() ? path : named;
     FieldImage image;
     try {
-        image = path.extension() == ".h5" ? readHdf5(path, field) : readVti(path, field);
+        image = name.extension() == ".h5" ? readHdf5(path, field) : readVti(path, field);
     } catch (const InputError&) {
         throw;
     } catch (const std::runtime_error& problem) {

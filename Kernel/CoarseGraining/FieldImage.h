@@ -35,6 +35,8 @@ struct FieldImage {
 /// Reads one field of a file .vti or .h5, and no others. Throws InputError, with the file and the reason, if
 /// it is none with fields, or has none of this name.
 /// @param field its name; empty: the first one
-FieldImage readFieldImage(const std::filesystem::path& path, const std::string& field);
+/// @param named its name, which tells the form, where the path is not that one (that of an open file)
+FieldImage readFieldImage(const std::filesystem::path& path, const std::string& field,
+                          const std::filesystem::path& named = {});
 
 }  // namespace pendular

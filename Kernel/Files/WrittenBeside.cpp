@@ -9,6 +9,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/SilentRank.h"
+#include "Kernel/Files/FileFault.h"
 #include "Kernel/Files/OwnFile.h"
 
 namespace pendular {
@@ -31,7 +32,7 @@ std::filesystem::path partOrWhole(const std::filesystem::path& file) {
 }
 
 void requireBytes(const std::filesystem::path& file, std::uintmax_t bytes) {
-    const std::uintmax_t there = std::filesystem::file_size(file);
+    const std::uintmax_t there = sizeOf(file);
     if (there < bytes)
         throw InputError(
             fmt::format("The file {} has {} bytes and had {} when the restart file was written: bring it "
@@ -67,8 +68,10 @@ WrittenBeside::WrittenBeside(std::filesystem::path path, std::uintmax_t bytes)
     requireOwnIfThere(beside);
     if (!fs::exists(beside, problem) && fs::exists(target, problem)) {
         // Who has put the table elsewhere, with a link to it, keeps it: the run goes on with a copy.
-        if (fs::is_symlink(target, problem)) fs::copy_file(target, beside, problem);
-        else fs::rename(target, beside, problem);
+        if (!fs::is_symlink(target, problem)) renameFile(target, beside);
+        else if (!fs::copy_file(target, beside, problem))
+            throw InputError(fmt::format("The file {} cannot be copied to {}: {}.", target.string(),
+                                         beside.string(), problem.message()));
     }
     cutBack(beside, bytes);
     file = goOnWithFile(beside);
@@ -83,9 +86,9 @@ WrittenBeside::WrittenBeside(std::filesystem::path path, OfEachRank)
 
 std::uintmax_t WrittenBeside::flush() {
     if (isSilentRank()) return 0;
-    if (!file) return std::filesystem::file_size(target);
+    if (!file) return sizeOf(target);
     if (std::fflush(file) != 0 || (fsync(fileno(file)) != 0 && errno != EINVAL)) fail("cannot be written");
-    return std::filesystem::file_size(beside);
+    return sizeOf(beside);
 }
 
 WrittenBeside::~WrittenBeside() {

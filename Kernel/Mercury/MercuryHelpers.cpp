@@ -21,7 +21,10 @@ void writeToFile(const std::string& file, const std::string& text) {
     if (!out) throw pendular::InputError(fmt::format("The file {} cannot be written.", file));
 }
 
-bool fileExists(const std::string& file) { return std::filesystem::exists(file); }
+bool fileExists(const std::string& file) {
+    std::error_code ignored;
+    return std::filesystem::exists(file, ignored);
+}
 
 std::size_t getSaveCountFromNumberOfSavesAndTimeMaxAndTimeStep(std::size_t saves, double timeMax,
                                                                double timeStep) {

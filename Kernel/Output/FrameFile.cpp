@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Files/FileFault.h"
 #include "Kernel/Files/OwnFile.h"
 #include "Kernel/Files/WrittenBeside.h"
 
@@ -48,7 +49,7 @@ void FrameFile::visitState(StateArchive& archive, const std::string& beginning) 
     const std::string entry = std::filesystem::path(beginning + ending).filename().string() + "-bytes";
     if (archive.isWriting() && file) {
         if (fsync(fileno(file.get())) != 0 && errno != EINVAL) fail();
-        kept = std::filesystem::file_size(path);
+        kept = sizeOf(path);
     } else if (archive.isReading() && archive.holds(entry)) {
         kept = 0;
     }

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string_view>
+#include <system_error>
 
 #include "Kernel/Base/InputError.h"
 
@@ -14,7 +15,8 @@ namespace pendular {
 /// @param read given the path, throws InputError
 template <class Read>
 void checkFrameIndex(const std::filesystem::path& index, Read&& read) {
-    if (!std::filesystem::exists(index)) return;
+    std::error_code ignored;
+    if (!std::filesystem::exists(index, ignored)) return;
     try {
         read(index);
     } catch (const InputError& refused) {

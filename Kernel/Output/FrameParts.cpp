@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Files/FileFault.h"
 #include "Kernel/Files/OwnFile.h"
 #include "Kernel/Files/TextFile.h"
 #include "Kernel/Files/WrittenBeside.h"
@@ -30,7 +31,7 @@ public:
         try {
             body();
         } catch (const std::exception& fault) {
-            problem = fault.what() + std::string("\n");
+            problem = sentenceOf(fault) + "\n";
         }
         const std::vector<char> all = ranks.gather(std::vector<char>(problem.begin(), problem.end()));
         if (all.empty()) return;

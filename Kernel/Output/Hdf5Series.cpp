@@ -58,8 +58,9 @@ Hdf5Series::Times Hdf5Series::readIndex(const std::filesystem::path& path) {
     return found;
 }
 
-std::vector<Hdf5Entry> readHdf5Series(const std::filesystem::path& path) {
-    const std::string beginning = path.parent_path() / path.stem();
+std::vector<Hdf5Entry> readHdf5Series(const std::filesystem::path& path, const std::filesystem::path& named) {
+    const std::filesystem::path& list = named.empty() ? path : named;
+    const std::string beginning = list.parent_path() / list.stem();
     std::vector<Hdf5Entry> entries;
     for (const auto& [step, time] : Hdf5Series::readIndex(path))
         entries.push_back({time, fileOfStep(beginning, step)});
@@ -69,7 +70,8 @@ std::vector<Hdf5Entry> readHdf5Series(const std::filesystem::path& path) {
 void Hdf5Series::check(const std::string& name) { checkFrameIndex(indexOf(name), readIndex); }
 
 Hdf5Series::Times Hdf5Series::formerTimes(bool needed) const {
-    if (!std::filesystem::exists(indexOf(beginning))) return {};
+    std::error_code ignored;
+    if (!std::filesystem::exists(indexOf(beginning), ignored)) return {};
     try {
         return readIndex(indexOf(beginning));
     } catch (const InputError&) {

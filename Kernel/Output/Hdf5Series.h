@@ -15,7 +15,9 @@ struct Hdf5Entry {
 };
 
 /// The frames of a list BEGINNING.h5, in order. Throws InputError if it is no such list.
-std::vector<Hdf5Entry> readHdf5Series(const std::filesystem::path& path);
+/// @param named by what name its frames are known, where the path is not that one (that of an open file)
+std::vector<Hdf5Entry> readHdf5Series(const std::filesystem::path& path,
+                                      const std::filesystem::path& named = {});
 
 /// A list of frames, BEGINNING.h5, in which each of them, a file BEGINNING-STEP.h5, appears as the group
 /// frames/STEP. Every file is complete at any moment, so a run that is killed leaves all frames but the one
@@ -36,7 +38,8 @@ public:
     void add(std::uint64_t step, double time);
 
 private:
-    friend std::vector<Hdf5Entry> readHdf5Series(const std::filesystem::path& path);
+    friend std::vector<Hdf5Entry> readHdf5Series(const std::filesystem::path& path,
+                                                 const std::filesystem::path& named);
     using Times = std::map<std::uint64_t, double>;  // s, of each frame, by its step
 
     static Times readIndex(const std::filesystem::path& path);

@@ -68,7 +68,8 @@ ParaViewSeries::ParaViewSeries(std::string name, double keptUntil, std::string f
 }
 
 std::vector<ParaViewEntry> ParaViewSeries::formerEntries(bool needed) const {
-    if (!std::filesystem::exists(file)) return {};
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) return {};
     try {
         return readParaViewSeries(file);
     } catch (const InputError&) {

@@ -52,7 +52,8 @@ void RunTable::visitState(StateArchive& archive) {
     archive.value(name + "-bytes", bytes);
     archive.value(name + "-checksum", checksum);
     if (!archive.isReading()) return;
-    const bool isThere = std::filesystem::exists(partOrWhole(place));
+    std::error_code ignored;
+    const bool isThere = std::filesystem::exists(partOrWhole(place), ignored);
     if (isThere && checksumOf(place, bytes) != checksum)
         throw InputError(
             fmt::format("The table {} is not the one that the run wrote which the restart file is of: bring "

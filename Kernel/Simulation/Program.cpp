@@ -20,6 +20,7 @@
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/Logger.h"
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Files/FileFault.h"
 #include "Kernel/Ranks/ProgramRanks.h"
 #include "Kernel/Simulation/RunControl.h"
 
@@ -73,7 +74,7 @@ int printCurrentException() {
     } catch (const std::system_error& problem) {
         // Who reads the results has gone (PROGRAM | head): nobody is there to be told.
         if (problem.code() == std::error_code(EPIPE, std::generic_category())) return brokenPipe;
-        tellAll(problem.what());
+        tellAll(sentenceOf(problem));
     } catch (const std::bad_alloc&) {
         tellAll("There is not enough memory for this; take fewer grains, or a larger machine.");
     } catch (const std::exception& problem) {

@@ -7,6 +7,7 @@
 #include "Kernel/Base/FullStop.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Files/FileFault.h"
 #include "Kernel/Files/FileLock.h"
 #include "Kernel/Files/SetAside.h"
 #include "Kernel/Ranks/ProgramRanks.h"
@@ -103,8 +104,8 @@ void Run::beginRun() {
         const Within settingUp(*this, Within::SettingUp, 0, {});
         setUp();
     } catch (const std::exception& problem) {
-        if (begun) stopped = problem.what();
-        if (isShared()) failOnRanks(problem.what());
+        if (begun) stopped = sentenceOf(problem);
+        if (isShared()) failOnRanks(sentenceOf(problem));
         leaveCourse();
         throw;
     } catch (...) {
@@ -135,7 +136,7 @@ void Run::endingWithErrors(Body&& body) {
         } catch (const RunStopped&) {
             throw;
         } catch (const std::exception& problem) {  // a full disk
-            stopped = problem.what();
+            stopped = sentenceOf(problem);
             askedToStop = false;
             completeWhatCanBe();
             throw;
@@ -292,7 +293,7 @@ std::string Run::withLastState(const std::string& sentence) {
         completeOutputs();
     } catch (const std::exception& problem) {
         return fmt::format("{}; writing the last state failed: {}", withoutFullStop(sentence),
-                           problem.what());
+                           sentenceOf(problem));
     }
     return fmt::format("{}; the last whole step is in {} and {}{}.", withoutFullStop(sentence), grains,
                        contacts, restart);

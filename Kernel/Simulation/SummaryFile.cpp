@@ -62,9 +62,10 @@ std::string SummaryFile::state() const {
 }
 
 double SummaryFile::age() const {
-    return std::chrono::duration<double>(std::filesystem::file_time_type::clock::now() -
-                                         std::filesystem::last_write_time(path))
-        .count();
+    std::error_code problem;  // it has been removed since: its age is not known
+    const auto written = std::filesystem::last_write_time(path, problem);
+    if (problem) return NAN;
+    return std::chrono::duration<double>(std::filesystem::file_time_type::clock::now() - written).count();
 }
 
 bool SummaryFile::isAboveLimit() const { return number("time step") > number("stability limit"); }

@@ -4,6 +4,7 @@
 
 #include <cerrno>
 
+#include "Kernel/Files/FileFault.h"
 #include "Kernel/Files/OwnFile.h"
 #include "Kernel/Files/WrittenBeside.h"
 #include "Kernel/State/Hdf5Fault.h"
@@ -200,7 +201,7 @@ std::optional<TableShape> Hdf5File::shapeOf(const std::string& name) const {
                             static_cast<double>(std::max<hsize_t>(extent[1], 1)) *
                             static_cast<double>(H5Tget_size(type)),
                  stored = static_cast<double>(H5Dget_storage_size(set)),
-                 fileSize = static_cast<double>(std::filesystem::file_size(place));
+                 fileSize = static_cast<double>(sizeOf(place));
     if (promised > std::min(stored, fileSize) && promised > mostBytes(set, stored, fileSize))
         fail(fmt::format("has fewer bytes than {} is to have numbers", name));
     for (const NumberKind kind :

@@ -13,6 +13,7 @@
 
 #include "Kernel/Base/FullStop.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Files/FileFault.h"
 #include "Kernel/Files/OwnFile.h"
 #include "Kernel/Files/WrittenBeside.h"
 
@@ -107,7 +108,7 @@ void sealRestartFile(const fs::path& path) {
     Descriptor file(path, O_RDWR | O_NOFOLLOW);
     Seal::Block block;
     static_cast<void>(file.read(block.data(), block.size()));
-    const Seal seal{restartFormat, fs::file_size(path), checksumOfRest(file)};
+    const Seal seal{restartFormat, sizeOf(path), checksumOfRest(file)};
     block = seal.block();
     file.writeAtBegin(block.data(), block.size());
     file.sync();
@@ -132,12 +133,12 @@ void writeRestartFile(const fs::path& path, const std::function<void(StateArchiv
         visit(archive);
         file.close();
         sealRestartFile(beside);
-        fs::rename(beside, path);
+        renameFile(beside, path);
         syncFolderOf(path);
     } catch (const std::exception& problem) {
         fs::remove(beside, ignored);
         throw InputError(
-            fmt::format("{}{}.", withoutFullStop(problem.what()),
+            fmt::format("{}{}.", withoutFullStop(sentenceOf(problem)),
                         fs::exists(path, ignored) ? "; the restart file of before is kept" : ""));
     }
 }
@@ -163,7 +164,7 @@ void checkRestartFile(const fs::path& path) {
                         "version that wrote it",
                         seal.format, restartFormat));
     constexpr std::string_view advice = "take another one, or start the run again";
-    const std::uintmax_t size = fs::file_size(path);
+    const std::uintmax_t size = sizeOf(path);
     if (found == 3 && size < seal.bytes)
         refuse(fmt::format("is truncated, {} of its {} bytes are there: {}", size, seal.bytes, advice));
     if (found < 3 || size != seal.bytes || seal.format < 1 || block != seal.block() ||

@@ -8,6 +8,7 @@
 #include "Kernel/Base/Host.h"
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Contacts/SpeciesRegistry.h"
+#include "Kernel/Files/FileFault.h"
 #include "Kernel/Ranks/ProgramRanks.h"
 #include "Kernel/Simulation/Program.h"
 #include "Python/Version.h"
@@ -112,9 +113,7 @@ void registerOtherErrors() {
                 "A value in an argument, or what a function has returned, is of another type than is "
                 "asked for here.");
         } catch (const std::filesystem::filesystem_error& error) {
-            const std::string text = fmt::format("The file '{}' cannot be used: {}.", error.path1().string(),
-                                                 error.code().message());
-            PyErr_SetString(PyExc_OSError, text.c_str());
+            PyErr_SetString(PyExc_OSError, sentenceOf(error).c_str());
         }
     });
 }

@@ -20,19 +20,26 @@ struct Frame {
 };
 
 inline PolyData readIfThere(const std::filesystem::path& path) {
-    return std::filesystem::exists(path) ? readPolyData(path) : PolyData{};
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored) ? readPolyData(path) : PolyData{};
 }
 
-/// The file of another kind that goes with NAME-particles-STEP.vtp: NAME-contacts-STEP.vtp; of a frame in
-/// parts (.pvtp) the one in parts, if there is one. Empty if the file has another name.
-inline std::filesystem::path fileBeside(const std::filesystem::path& particles, std::string_view kind) {
+/// NAME-contacts-STEP.vtp beside NAME-particles-STEP.vtp; empty if the file has another name.
+inline std::string nameBeside(std::string particles, std::string_view kind) {
     constexpr std::string_view own = "-particles-";
-    std::string name = particles.filename().string();
-    const std::size_t at = name.rfind(own);
-    if (at == name.npos) return {};
-    std::filesystem::path beside =
-        particles.parent_path() / name.replace(at, own.size(), fmt::format("-{}-", kind));
-    if (beside.extension() == ".pvtp" && !std::filesystem::exists(beside)) beside.replace_extension(".vtp");
+    const std::size_t at = particles.rfind(own);
+    return at == particles.npos ? "" : particles.replace(at, own.size(), fmt::format("-{}-", kind));
+}
+
+/// The file of another kind that goes with one of particles; of a frame in parts (.pvtp) the one in parts, if
+/// there is one. Empty if the file has another name.
+inline std::filesystem::path fileBeside(const std::filesystem::path& particles, std::string_view kind) {
+    const std::string name = nameBeside(particles.filename().string(), kind);
+    if (name.empty()) return {};
+    std::filesystem::path beside = particles.parent_path() / name;
+    std::error_code ignored;
+    if (beside.extension() == ".pvtp" && !std::filesystem::exists(beside, ignored))
+        beside.replace_extension(".vtp");
     return beside;
 }
 

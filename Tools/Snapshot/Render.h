@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Files/FileFault.h"
 #include "Kernel/Files/WrittenBeside.h"
 #include "Tools/Snapshot/PovScene.h"
 
@@ -65,7 +66,10 @@ private:
 inline void render(const std::filesystem::path& scene, const std::filesystem::path& picture, int width,
                    int height) {
     const FolderBeside folder(scene);
-    std::filesystem::copy_file(scene, folder.path() / "scene.pov");
+    std::error_code problem;
+    if (!std::filesystem::copy_file(scene, folder.path() / "scene.pov", problem))
+        throw InputError(fmt::format("The file {} cannot be copied for POV-Ray to {}: {}.", scene.string(),
+                                     folder.path().string(), problem.message()));
     const int code = runQuietly({"povray", "+Iscene.pov", "+Opicture.png", fmt::format("+W{}", width),
                                  fmt::format("+H{}", height), "+A0.1", "+AM2", "+R3", "-D", "+FN8", "-GA"},
                                 folder.path(), "log");
@@ -74,11 +78,11 @@ inline void render(const std::filesystem::path& scene, const std::filesystem::pa
             "POV-Ray is not installed (Debian package povray); the scene for it is in {}.", scene.string()));
     if (code != 0) {
         const std::string log = scene.string() + ".log";
-        std::filesystem::rename(folder.path() / "log", log);
+        renameFile(folder.path() / "log", log);
         throw InputError(fmt::format("POV-Ray failed on {}; what it said is in {}.", scene.string(), log));
     }
-    std::filesystem::rename(folder.path() / "picture.png", picture);
-    std::filesystem::remove(scene);
+    renameFile(folder.path() / "picture.png", picture);
+    std::filesystem::remove(scene, problem);
 }
 
 /// Writes what POV-Ray reads beside a picture, and renders it unless only that is wanted; returns the file

@@ -8,11 +8,14 @@
 #include <sstream>
 #include <utility>
 
+#include "Kernel/Base/FullStop.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Files/FileContent.h"
+#include "Kernel/Files/FileFault.h"
 #include "Kernel/Files/TextFile.h"
 #include "Tools/View/FieldMaps.h"
 #include "Tools/View/FramePack.h"
+#include "Tools/View/NameText.h"
 #include "Tools/View/RunState.h"
 
 namespace pendular::view {
@@ -76,7 +79,8 @@ Reply Api::answer(const Request& request) {
     } catch (const InputError& problem) {
         reply = sentence(400, problem.what());
     } catch (const std::exception& problem) {
-        reply = sentence(500, fmt::format("The server has met a fault: {}.", problem.what()));
+        reply = sentence(
+            500, fmt::format("The server has met a fault: {}.", withoutFullStop(sentenceOf(problem))));
     }
     secure(reply, places.frameAncestors);
     return reply;
@@ -102,7 +106,7 @@ Reply Api::change(const Request& request) {
     if (request.path == "/api/stop") {
         if (!wish.contains("id") || !wish["id"].is_string())
             return sentence(400, "The id of the run is missing.");
-        return queue.stop(wish["id"]), json({{"told", "It was asked to stop."}});
+        return json({{"told", queue.stop(wish["id"])}});
     }
     return sentence(404, "There is nothing here.");
 }
@@ -141,7 +145,7 @@ Reply Api::frame(const Request& request, const RunFiles& run) {
 
 Reply Api::map(const Request& request, const RunFiles& run) {
     const std::vector<FieldSeries> all = fieldSeriesOf(run);
-    const auto found = std::ranges::find(all, request.asked("name"), &FieldSeries::name);
+    const auto found = std::ranges::find(all, nameOfText(request.asked("name")), &FieldSeries::name);
     const std::size_t number = wholeOf(request, "frame");
     if (found == all.end() || number >= found->entries.size()) return sentence(404, "There is no such map.");
     const auto optional = [&](const char* word) {
@@ -152,13 +156,16 @@ Reply Api::map(const Request& request, const RunFiles& run) {
             packMap(found->entries[number], {request.asked("field"), optional("normal"), optional("slice")})};
 }
 
+/// What this server knows of a run that it has in its queue, or has started. The locks of a run that
+/// computes, by whomever it was started, are above that.
 void Api::addQueue(Json& overview, const RunFiles& run) {
-    const auto [state, reason] = queue.stateOf(run.id);
+    const auto [state, reason, when] = queue.stateOf(run);
     const std::string told = overview["state"];
-    const bool isUnderWay = state == "waiting" || (state == "running" && told != "preparing");
+    if (told == "running" || told == "preparing") return;
+    const bool isUnderWay = state == "waiting" || state == "running";
     const bool isOver = told == "silent" && (state == "ended" || state == "stopped");
     if (isUnderWay || isOver) overview["state"] = state, overview["reason"] = "";
-    if (state != "failed" || told == "failed") return;
+    if (state != "failed" || told == "failed" || told == "waiting") return;
     overview["state"] = "failed";
     overview["reason"] = reason.empty() ? errorOf(run) : reason;
     overview["healthy"] = false;
@@ -167,14 +174,16 @@ void Api::addQueue(Json& overview, const RunFiles& run) {
 Reply Api::list() {
     std::vector<Json> all;
     const Locks locks;
-    for (const RunFiles& run : runs.list()) {
-        all.push_back(overview(run, locks));
-        addQueue(all.back(), run);
+    for (const std::string& id : runs.list()) {
+        const auto run = runs.find(id);  // of a thousand, one folder is open at a time
+        if (!run) continue;
+        all.push_back(overview(*run, locks));
+        addQueue(all.back(), *run);
     }
     std::stable_sort(all.begin(), all.end(), [](const Json& a, const Json& b) {
         return a["changed"].get<double>() > b["changed"].get<double>();
     });
-    return json({{"root", runs.root().string()}, {"runs", all}});
+    return json({{"root", runs.root().path().string()}, {"runs", all}});
 }
 
 Reply Api::pageFile(const std::string& path) const {

@@ -41,6 +41,8 @@ public:
     /// Never throws but for want of memory. May be called by several threads.
     [[nodiscard]] Reply answer(const Request& request);
     void tend() { queue.tend(); }
+    /// The ids of the runs that wait to be started.
+    [[nodiscard]] std::vector<std::string> waiting() { return queue.waiting(); }
 
 private:
     [[nodiscard]] Reply route(const Request& request);

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <sstream>
 
@@ -43,6 +44,8 @@ void checkNumber(const Json& option, const std::string& name, const std::string&
     const std::string type = option["type"];
     if (!parseNumber(word, value))
         throw InputError(fmt::format("{} = '{}' is no number.", name, shown(word)));
+    if (!std::isfinite(value))
+        throw InputError(fmt::format("{} = '{}' is not a finite number.", name, shown(word)));
     const bool isWhole = word.find_first_not_of("+-0123456789") == word.npos;
     if (type != "number" && (!isWhole || (type == "count" && value < 0)))
         throw InputError(fmt::format("{} = '{}' is no whole number{}.", name, shown(word),
@@ -107,15 +110,18 @@ std::vector<std::string> DriverOptions::names() const {
 
 fs::path DriverOptions::program(const std::string& driver) const {
     const fs::path path = pathOf(driver);
+    std::error_code problem;
     const bool isDriver = inFolder.empty() || std::ranges::count(inFolder, driver) > 0;
-    if (!isName(driver) || !isDriver || !fs::is_regular_file(path) || access(path.c_str(), X_OK) != 0)
+    if (!isName(driver) || !isDriver || !fs::is_regular_file(path, problem) ||
+        access(path.c_str(), X_OK) != 0)
         throw InputError(fmt::format("view: there is no driver '{}'.", shown(driver)));
     return path;
 }
 
 const Json& DriverOptions::describe(const std::string& driver) {
     const fs::path path = program(driver);
-    const auto written = fs::last_write_time(path);
+    std::error_code problem;
+    const auto written = fs::last_write_time(path, problem);
     const auto found = known.find(driver), end = known.end();
     const auto now = std::chrono::steady_clock::now();
     if (found != end && found->second.written == written &&

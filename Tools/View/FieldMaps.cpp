@@ -9,13 +9,11 @@
 #include "Kernel/Base/InputError.h"
 #include "Kernel/CoarseGraining/FieldImage.h"
 #include "Kernel/Files/TextFile.h"
-#include "Kernel/Output/Hdf5Series.h"
-#include "Kernel/Output/ParaViewSeries.h"
 #include "Tools/View/Columns.h"
+#include "Tools/View/FrameLists.h"
 
 namespace pendular::view {
 
-namespace fs = std::filesystem;
 using Json = Columns::Json;
 
 namespace {
@@ -29,15 +27,15 @@ bool isListOfFields(const std::string& file) {
     return step.size() < 9 || step.find_first_not_of("0123456789") != step.npos;
 }
 
-std::vector<FieldSeries::Entry> entriesOf(const fs::path& list) {
+std::vector<FieldSeries::Entry> entriesOf(const RunFiles& run, const std::string& list) {
     std::vector<FieldSeries::Entry> entries;
-    const auto add = [&](double time, const fs::path& file) {
-        if (file.parent_path() == list.parent_path() && isOwnFile(file)) entries.push_back({time, file});
+    const auto add = [&](double time, const std::string& file) {
+        if (run.folder->hasFile(file)) entries.push_back({time, run.folder, file});
     };
-    if (list.extension() == ".h5") {
-        for (const Hdf5Entry& entry : readHdf5Series(list)) add(entry.time, entry.file);
-    } else if (isOfFields(list)) {
-        for (const ParaViewEntry& entry : readParaViewSeries(list))
+    if (list.ends_with(".h5")) {
+        for (const Hdf5Entry& entry : framesIn(*run.folder, list)) add(entry.time, entry.file);
+    } else if (isOfFields(*run.folder, list)) {
+        for (const ParaViewEntry& entry : filesOf(*run.folder, list))
             if (entry.file.extension() == ".vti") add(entry.time, entry.file);
     }
     return entries;
@@ -86,26 +84,26 @@ Json axisOf(const FieldImage& image, std::size_t axis) {
 
 std::vector<FieldSeries> fieldSeriesOf(const RunFiles& run) {
     std::vector<FieldSeries> all;
-    std::error_code problem;
-    for (const auto& entry : fs::directory_iterator(run.folder, problem)) {
-        const std::string name = entry.path().filename().string();
-        if (name[0] == '.' || !(name.ends_with(".pvd") || isListOfFields(name)) || !isOwnFile(entry.path()))
-            continue;
-        if (all.size() >= mostSeries) break;
+    run.folder->forEach([&](const std::string& name, OpenFolder::Kind kind) {
+        const bool isList = name.ends_with(".pvd") || isListOfFields(name);
+        if (name[0] == '.' || kind != OpenFolder::Kind::File || !isList) return true;
         try {
-            if (auto entries = entriesOf(entry.path()); !entries.empty())
+            if (auto entries = entriesOf(run, name); !entries.empty())
                 all.push_back({name, std::move(entries)});
         } catch (const InputError&) {
-            continue;
+            return true;
         }
-    }
+        return all.size() < mostSeries;
+    });
     std::ranges::sort(all, {}, &FieldSeries::name);
     return all;
 }
 
 std::string packMap(const FieldSeries::Entry& entry, const MapWish& wish) {
     const std::size_t dot = std::min(wish.field.find('.'), wish.field.size());
-    const FieldImage image = readFieldImage(entry.file, wish.field.substr(0, dot));
+    const FieldImage image = entry.folder->read(entry.file, [&](const std::filesystem::path& path) {
+        return readFieldImage(path, wish.field.substr(0, dot), entry.file);
+    });
     const auto component =
         componentOf(wish.field.substr(std::min(dot + 1, wish.field.size())), image.field.components);
     const std::size_t normal = normalOf(image, wish), count = image.places[normal].size();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,7 +14,8 @@ namespace pendular::view {
 struct FieldSeries {
     struct Entry {
         double time;  // s
-        std::filesystem::path file;
+        std::shared_ptr<const OpenFolder> folder;
+        std::string file;  // its name in the folder
     };
     std::string name;  // of the file that lists them: "run-coarse.pvd"
     std::vector<Entry> entries;

@@ -5,16 +5,18 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Output/FrameParts.h"
 #include "Kernel/Output/Hdf5Frame.h"
-#include "Kernel/Output/Hdf5Series.h"
-#include "Kernel/Output/ParaViewSeries.h"
+#include "Kernel/Output/JoinPieces.h"
 #include "Kernel/Output/ShapeFields.h"
 #include "Tools/Snapshot/Compose.h"
 #include "Tools/View/Columns.h"
+#include "Tools/View/FrameLists.h"
 
 namespace pendular::view {
 
@@ -231,10 +233,33 @@ std::vector<float> dropletColumn(const PolyData& droplets, const Vector<double>&
     return column;
 }
 
-/// The part of a frame that is in a file of its own, unless that is a link.
-PolyData readBeside(const std::filesystem::path& particles, std::string_view kind) {
-    const std::filesystem::path file = snapshot::fileBeside(particles, kind);
-    return isOwnFile(file) ? readPolyData(file) : PolyData{};
+constexpr std::uintmax_t longestIndex = 1 << 20;  // bytes of a .pvtp file
+
+PolyData readFile(const OpenFolder& folder, const std::string& name) {
+    return folder.read(name, [](const std::filesystem::path& path) { return readPolyData(path); });
+}
+
+/// A file .vtp, or all that a file .pvtp names.
+PolyData readParts(const OpenFolder& folder, const std::string& name) {
+    const auto index = name.ends_with(".pvtp") ? folder.file(name) : std::nullopt;
+    if (!index) return readFile(folder, name);
+    std::vector<PolyData> pieces;
+    try {
+        for (const std::string& piece : pieceNames(index->bytes(0, longestIndex)))
+            pieces.push_back(readFile(folder, piece));
+        return joined(std::move(pieces));
+    } catch (const InputError&) {
+        throw;  // of a piece
+    } catch (const std::runtime_error& problem) {
+        folder.refuse(name, problem.what());
+    }
+}
+
+/// The part of a frame that is in a file of its own, if there is one.
+PolyData readBeside(const OpenFolder& folder, const std::string& particles, std::string_view kind) {
+    std::string name = snapshot::nameBeside(particles, kind);
+    if (name.ends_with(".pvtp") && !folder.hasFile(name)) name.replace(name.size() - 5, 5, ".vtp");
+    return folder.hasFile(name) ? readParts(folder, name) : PolyData{};
 }
 
 /// All that is drawn of a frame.
@@ -244,8 +269,8 @@ struct Content : snapshot::Frame {
 
 constexpr std::size_t mostShapes = 20'000;  // whose surfaces are made: 10 kB each
 
-Content readHdf5(const std::filesystem::path& file, const FrameWish& wish) {
-    SceneFrame frame = readHdf5Frame(file);
+Content readHdf5(const FrameEntry& entry, const FrameWish& wish) {
+    SceneFrame frame = entry.folder->read(entry.file, readHdf5Frame);
     if (wish.surfaces && frame.grains.points.size() <= mostShapes) frame.shapes = shapeSurfaces(frame.grains);
     const auto given = [](std::optional<PolyData>& part) { return std::move(part).value_or(PolyData{}); };
     return {{std::move(frame.grains), given(frame.contacts), given(frame.walls)},
@@ -253,20 +278,22 @@ Content readHdf5(const std::filesystem::path& file, const FrameWish& wish) {
             given(frame.droplets)};
 }
 
-Content readParaView(const std::filesystem::path& file, const FrameWish& wish) {
+Content readParaView(const FrameEntry& entry, const FrameWish& wish) {
+    const auto beside = [&](std::string_view kind) { return readBeside(*entry.folder, entry.file, kind); };
     Content content;
-    content.grains = readPolyData(file);
-    if (wish.surfaces) content.walls = readBeside(file, "walls"), content.shapes = readBeside(file, "shapes");
-    if (wish.bridges || wish.contacts) content.contacts = readBeside(file, "contacts");
-    if (wish.droplets) content.droplets = readBeside(file, "droplets");
+    content.grains = readParts(*entry.folder, entry.file);
+    if (wish.surfaces) content.walls = beside("walls"), content.shapes = beside("shapes");
+    if (wish.bridges || wish.contacts) content.contacts = beside("contacts");
+    if (wish.droplets) content.droplets = beside("droplets");
     return content;
 }
 
 /// Throws InputError if it cannot be read, or if it is one that no run writes.
 Content read(const FrameEntry& frame, const FrameWish& wish) {
-    if (frame.kind == FrameEntry::Kind::Restart) return {snapshot::readRestartState(frame.file), {}, {}};
+    if (frame.kind == FrameEntry::Kind::Restart)
+        return {frame.folder->read(frame.file, snapshot::readRestartState), {}, {}};
     Content content =
-        frame.kind == FrameEntry::Kind::Hdf5 ? readHdf5(frame.file, wish) : readParaView(frame.file, wish);
+        frame.kind == FrameEntry::Kind::Hdf5 ? readHdf5(frame, wish) : readParaView(frame, wish);
     if (std::isfinite(frame.time)) content.grains.time = frame.time;
     snapshot::checkFrame(content, frame.file);
     return content;
@@ -275,20 +302,20 @@ Content read(const FrameEntry& frame, const FrameWish& wish) {
 }  // namespace
 
 std::vector<FrameEntry> framesOf(const RunFiles& run) {
+    const OpenFolder& folder = *run.folder;
     std::vector<FrameEntry> frames;
-    const auto add = [&](double time, const std::filesystem::path& file, FrameEntry::Kind kind) {
-        if (file.parent_path() == run.folder && isOwnFile(file)) frames.push_back({time, file, kind});
+    const auto add = [&](double time, const std::string& file, FrameEntry::Kind kind) {
+        if (folder.hasFile(file)) frames.push_back({time, run.folder, file, kind});
     };
-    const std::filesystem::path series = run.file(".pvd"), list = run.file(hdf5Frames),
-                                restart = run.file("-restart.h5");
-    if (isOwnFile(series)) {
-        for (const ParaViewEntry& entry : readParaViewSeries(series))
+    const std::string series = run.file(".pvd"), list = run.file(hdf5Frames);
+    if (folder.hasFile(series)) {
+        for (const ParaViewEntry& entry : filesOf(folder, series))
             if (entry.kind == "particles") add(entry.time, entry.file, FrameEntry::Kind::ParaView);
-    } else if (isOwnFile(list)) {
-        for (const Hdf5Entry& entry : readHdf5Series(list))
+    } else if (folder.hasFile(list)) {
+        for (const Hdf5Entry& entry : framesIn(folder, list))
             add(entry.time, entry.file, FrameEntry::Kind::Hdf5);
     } else {
-        add(std::numeric_limits<double>::quiet_NaN(), restart, FrameEntry::Kind::Restart);
+        add(std::numeric_limits<double>::quiet_NaN(), run.file("-restart.h5"), FrameEntry::Kind::Restart);
     }
     return frames;
 }

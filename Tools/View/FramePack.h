@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,7 +16,8 @@ struct FrameEntry {
     enum class Kind { ParaView, Hdf5, Restart };
 
     double time;  // s; NaN: it is in the file
-    std::filesystem::path file;
+    std::shared_ptr<const OpenFolder> folder;
+    std::string file;  // its name in the folder
     Kind kind = Kind::ParaView;
 };
 

@@ -76,10 +76,9 @@ std::string readAll(int end, std::chrono::steady_clock::time_point until) {
 }  // namespace
 
 pid_t startProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                   const std::filesystem::path& output) {
+                   const Descriptor& output) {
     Spawn spawn;
-    posix_spawn_file_actions_addopen(&spawn.files, 1, output.c_str(),
-                                     O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW, 0644);
+    posix_spawn_file_actions_adddup2(&spawn.files, output.get(), 1);
     posix_spawn_file_actions_adddup2(&spawn.files, 1, 2);
     int problem = 0;
     const pid_t process = spawn.run(program, arguments, problem);

@@ -1,17 +1,17 @@
 #include "Tools/View/RunFolder.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <sys/sysmacros.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <fstream>
-#include <map>
+#include <set>
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
+#include "Tools/View/NameText.h"
 
 namespace pendular::view {
 
@@ -34,18 +34,13 @@ std::string runOf(const std::string& file) {
     return {};
 }
 
-bool isOwnFolder(const fs::path& path) {
-    std::error_code ignored;
-    return fs::symlink_status(path, ignored).type() == fs::file_type::directory;
-}
-
 /// "a/b/run": its parts; empty where one of them could lead elsewhere.
-std::vector<std::string> partsOf(const std::string& id) {
+std::vector<std::string> partsOf(const std::string& path) {
     std::vector<std::string> parts;
-    if (id.empty() || id.size() > 1000 || id.find('\0') != id.npos) return parts;
-    for (std::size_t begin = 0; begin <= id.size();) {
-        const std::size_t end = std::min(id.find('/', begin), id.size());
-        const std::string part = id.substr(begin, end - begin);
+    if (path.empty() || path.size() > 1000 || path.find('\0') != path.npos) return parts;
+    for (std::size_t begin = 0; begin <= path.size();) {
+        const std::size_t end = std::min(path.find('/', begin), path.size());
+        const std::string part = path.substr(begin, end - begin);
         if (part.empty() || part[0] == '.') return {};
         parts.push_back(part);
         begin = end + 1;
@@ -54,64 +49,71 @@ std::vector<std::string> partsOf(const std::string& id) {
     return parts;
 }
 
+/// Goes through a folder and those in it.
+class Listing {
+public:
+    void add(const OpenFolder& folder, const std::string& path, int depth) {
+        folder.forEach([&](const std::string& name, OpenFolder::Kind kind) {
+            if (++seen > mostEntries || found.size() >= RunFolder::mostRuns) return false;
+            if (name[0] == '.' || depth >= RunFolder::deepest) return true;
+            if (kind == OpenFolder::Kind::File) {
+                addFile(folder, path, name);
+            } else if (const auto inner = folder.folder(name)) {
+                add(*inner, path + name + "/", depth + 1);
+            }
+            return true;
+        });
+    }
+    std::set<std::string> found;
+
+private:
+    void addFile(const OpenFolder& folder, const std::string& path, const std::string& name) {
+        const std::string run = runOf(name);
+        if (run.empty() || (name.ends_with(".pvd") && isOfFields(folder, name))) return;
+        found.insert(textOfName(path + run));
+    }
+
+    std::size_t seen = 0;
+};
+
 }  // namespace
 
-bool isOwnFile(const fs::path& path) {
-    std::error_code ignored;
-    return fs::symlink_status(path, ignored).type() == fs::file_type::regular;
-}
-
-bool isOfFields(const fs::path& series) {
-    std::string begin(1000, '\0');
-    std::ifstream(series).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+bool isOfFields(const OpenFolder& folder, const std::string& series) {
+    const auto file = folder.file(series);
+    const std::string begin = file ? file->bytes(0, 1000) : "";
     const std::size_t first = begin.find("<DataSet "), end = std::min(begin.find('>', first), begin.size());
     return first < end && begin.substr(first, end - first).find(" name=\"fields\"") != begin.npos;
 }
 
 RunFolder::RunFolder(const fs::path& root) {
     std::error_code problem;
-    top = fs::canonical(root, problem);
-    if (problem || !fs::is_directory(top))
+    const fs::path path = fs::canonical(root, problem);
+    if (problem || !fs::is_directory(path, problem))
         throw InputError(
             fmt::format("view: there is no folder {}; give one with the folders of runs.", root.string()));
+    top = std::make_shared<const OpenFolder>(path);
 }
 
-std::vector<RunFiles> RunFolder::list() const {
-    std::map<std::string, RunFiles> found;
-    std::error_code problem;
-    fs::recursive_directory_iterator entry(top, fs::directory_options::skip_permission_denied, problem), end;
-    for (std::size_t seen = 0; !problem && entry != end && seen < mostEntries;
-         entry.increment(problem), ++seen) {
-        const std::string name = entry->path().filename().string();
-        if (name[0] == '.' || entry.depth() >= deepest || entry->is_symlink(problem)) {
-            entry.disable_recursion_pending();
-            continue;
-        }
-        const std::string run = runOf(name);
-        if (run.empty() || !isOwnFile(entry->path())) continue;
-        if (name.ends_with(".pvd") && isOfFields(entry->path())) continue;
-        const fs::path folder = entry->path().parent_path();
-        const std::string id = (folder.lexically_relative(top) / run).lexically_normal().string();
-        found.try_emplace(id, RunFiles{id, folder, run});
-        if (found.size() >= mostRuns) break;
-    }
-    std::vector<RunFiles> runs;
-    for (auto& [id, run] : found) runs.push_back(std::move(run));
-    return runs;
+std::vector<std::string> RunFolder::list() const {
+    Listing listing;
+    listing.add(*top, "", 0);
+    return {listing.found.begin(), listing.found.end()};
 }
 
 std::optional<RunFiles> RunFolder::find(const std::string& id) const {
-    const std::vector<std::string> parts = partsOf(id);
+    const std::vector<std::string> parts = partsOf(nameOfText(id).value_or(""));
     if (parts.empty()) return {};
-    fs::path folder = top;
+    RunFiles run{id, top, parts.back()};
     for (std::size_t k = 0; k + 1 < parts.size(); ++k) {
-        folder /= parts[k];
-        if (!isOwnFolder(folder)) return {};
+        auto inner = run.folder->folder(parts[k]);
+        if (!inner) return {};
+        run.folder = std::make_shared<const OpenFolder>(std::move(*inner));
     }
-    const RunFiles run{id, folder, parts.back()};
-    if (run.name == "run" && isOwnFile(folder / startFile)) return run;
+    const OpenFolder& folder = *run.folder;
+    if (run.name == "run" && folder.hasFile(startFile)) return run;
     for (const std::string_view ending : endings)
-        if (isOwnFile(run.file(ending)) || (run.name == "run" && isOwnFile(run.preparationFile(ending))))
+        if (folder.hasFile(run.file(ending)) ||
+            (run.name == "run" && folder.hasFile(RunFiles::preparationFile(ending))))
             return run;
     return {};
 }
@@ -127,12 +129,12 @@ Locks::Locks() {
     }
 }
 
-pid_t Locks::holderOf(const fs::path& lock) const {
-    struct stat file {};
-    if (lstat(lock.c_str(), &file) != 0 || !S_ISREG(file.st_mode)) return 0;
+pid_t Locks::holderOf(const OpenFolder& folder, const std::string& file) const {
+    const auto status = folder.status(file);
+    if (!status || !S_ISREG(status->st_mode)) return 0;
     for (const Lock& held : all)
-        if (held.inode == file.st_ino && held.major == gnu_dev_major(file.st_dev) &&
-            held.minor == gnu_dev_minor(file.st_dev))
+        if (held.inode == status->st_ino && held.major == gnu_dev_major(status->st_dev) &&
+            held.minor == gnu_dev_minor(status->st_dev))
             return held.process;
     return 0;
 }

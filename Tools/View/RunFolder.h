@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,26 +9,29 @@
 
 #include <sys/types.h>
 
+#include "Tools/View/OpenFolder.h"
+
 namespace pendular::view {
 
 /// In the folder of a run that was started from the page: what with.
-inline constexpr std::string_view startFile = "view-start.json";
+inline const std::string startFile = "view-start.json";
+/// Where what such a run prints goes. There is none before it is started.
+inline const std::string logFile = "view-output.txt";
 /// How the name of a list of HDF5 frames ends, behind that of its run.
 inline constexpr std::string_view hdf5Frames = "-fields.h5";
 
 /// The files of a run: those whose names begin with `name` (its setName()), in a folder beneath the
-/// root.
+/// root, which is open as long as this lives.
 struct RunFiles {
-    std::string id;  // from the root: "RotatingDrum-output/run"
-    std::filesystem::path folder;
+    std::string id;  // from the root, as NameText.h writes it: "RotatingDrum-output/run"
+    std::shared_ptr<const OpenFolder> folder;
     std::string name;  // "run"
 
-    [[nodiscard]] std::filesystem::path file(std::string_view ending) const {
-        return folder / (name + std::string(ending));
-    }
+    /// The name of a file of the run.
+    [[nodiscard]] std::string file(std::string_view ending) const { return name + std::string(ending); }
     /// Of the run that makes its first grains.
-    [[nodiscard]] std::filesystem::path preparationFile(std::string_view ending) const {
-        return folder / ("preparation" + std::string(ending));
+    [[nodiscard]] static std::string preparationFile(std::string_view ending) {
+        return "preparation" + std::string(ending);
     }
 };
 
@@ -41,27 +45,25 @@ public:
     static constexpr int deepest = 5;              // folders in each other
     static constexpr std::size_t mostRuns = 1000;  // that are listed
 
-    [[nodiscard]] const std::filesystem::path& root() const { return top; }
-    /// Sorted by id.
-    [[nodiscard]] std::vector<RunFiles> list() const;
+    [[nodiscard]] const OpenFolder& root() const { return *top; }
+    /// The ids of all runs, sorted.
+    [[nodiscard]] std::vector<std::string> list() const;
     /// The run of an id, which may be any text; nothing where there is none.
     [[nodiscard]] std::optional<RunFiles> find(const std::string& id) const;
 
 private:
-    std::filesystem::path top;
+    std::shared_ptr<const OpenFolder> top;
 };
 
-/// Whether the path is a regular file, and no link.
-bool isOwnFile(const std::filesystem::path& path);
 /// Whether a series for ParaView is one of fields of coarse graining, which is no run of its own.
-bool isOfFields(const std::filesystem::path& series);
+bool isOfFields(const OpenFolder& folder, const std::string& series);
 
 /// The locks that processes of this machine have now.
 class Locks {
 public:
     Locks();
     /// The process that has a lock (Kernel/Files/FileLock.h), seen without touching the lock; 0: none.
-    [[nodiscard]] pid_t holderOf(const std::filesystem::path& lock) const;
+    [[nodiscard]] pid_t holderOf(const OpenFolder& folder, const std::string& file) const;
 
 private:
     struct Lock {

@@ -4,13 +4,16 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
-#include <fstream>
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Files/TextFile.h"
+#include "Kernel/Simulation/SummaryFile.h"
+#include "Tools/View/NameText.h"
 #include "Tools/View/Process.h"
 #include "Tools/View/RunState.h"
 
@@ -32,33 +35,44 @@ RunQueue::Json optionsOf(const RunQueue::Json& wish) {
     return wish["options"];
 }
 
-void writeStart(const fs::path& folder, const std::string& driver, const RunQueue::Json& options) {
-    std::ofstream file(folder / startFile);
-    file << RunQueue::Json{{"driver", driver}, {"options", options}}.dump(1) << "\n";
-    if (!file.flush())
-        throw InputError(fmt::format("view: no files can be written into {}.", folder.string()));
+void writeStart(const OpenFolder& folder, const std::string& driver, const RunQueue::Json& options) {
+    const RunQueue::Json start{{"driver", driver}, {"options", options}};
+    folder.write(startFile, start.dump(1, ' ', false, RunQueue::Json::error_handler_t::replace) + "\n");
+}
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
 /// @param status as waitpid() tells it
 RunQueue::Outcome outcomeOf(int status) {
-    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM) return {"stopped", ""};
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM) return {"stopped", "", now()};
     if (WIFSIGNALED(status))
-        return {"failed", fmt::format("it was ended by the signal {} ({})", WTERMSIG(status),
-                                      strsignal(WTERMSIG(status)))};
+        return {
+            "failed",
+            fmt::format("it was ended by the signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status))),
+            now()};
     const int code = WEXITSTATUS(status);
-    if (code == 0) return {"ended", ""};
-    if (code == 128 + SIGTERM) return {"stopped", ""};
-    return {"failed", code == 1 ? "" : fmt::format("it ended with the exit code {}", code)};
+    if (code == 0) return {"ended", "", now()};
+    if (code == 128 + SIGTERM) return {"stopped", "", now()};
+    return {"failed", code == 1 ? "" : fmt::format("it ended with the exit code {}", code), now()};
 }
 
-std::vector<std::string> withFolder(std::vector<std::string> words, const fs::path& folder) {
-    words.push_back("--output=" + folder.string());
+std::vector<std::string> withFolder(std::vector<std::string> words, const OpenFolder& folder) {
+    words.push_back("--output=" + folder.path().string());
     return words;
+}
+
+/// Whether a process is a server as this one: it has locks for a moment, and is never stopped as a run.
+bool isServer(pid_t process) {
+    std::error_code problem;
+    const fs::path own = fs::read_symlink("/proc/self/exe", problem);
+    return !problem && own == fs::read_symlink(fmt::format("/proc/{}/exe", process), problem);
 }
 
 }  // namespace
 
-fs::path RunQueue::freeFolder(const std::string& driver, const std::string& wished) const {
+std::string RunQueue::freeFolder(const std::string& driver, const std::string& wished) const {
     const auto isPlain = [](unsigned char c) {
         return std::isalnum(c) || c == '_' || c == '-' || c == '.' || c == '=';
     };
@@ -66,14 +80,12 @@ fs::path RunQueue::freeFolder(const std::string& driver, const std::string& wish
         throw InputError(fmt::format(
             "The name '{}' cannot be that of a folder; it may have letters, digits, '-', '_', '=' and '.'.",
             shown(wished)));
-    fs::path folder = runs.root() / wished;
-    for (int k = 1; wished.empty() && (folder == runs.root() / wished || fs::exists(folder)); ++k)
-        folder = runs.root() / fmt::format("{}-{}", driver, k);
-    std::error_code problem;
-    if (fs::exists(fs::symlink_status(folder, problem)))
-        throw InputError(
-            fmt::format("The folder {} is there already; give another name.", folder.filename().string()));
-    return folder;
+    std::string name = wished;
+    for (int k = 1; wished.empty() && (name.empty() || runs.root().status(name)); ++k)
+        name = fmt::format("{}-{}", driver, k);
+    if (runs.root().status(name))
+        throw InputError(fmt::format("The folder {} is there already; give another name.", name));
+    return name;
 }
 
 void RunQueue::check(const Json& wish) {
@@ -81,42 +93,76 @@ void RunQueue::check(const Json& wish) {
     static_cast<void>(freeFolder(textOf(wish, "driver"), textOf(wish, "name")));
 }
 
+bool RunQueue::waits(const std::string& id) const {
+    return std::ranges::any_of(queue, [&](const Job& job) { return job.run.id == id; });
+}
+
+bool RunQueue::computes(const std::string& id) const {
+    return std::ranges::any_of(running, [&](const auto& one) { return one.second.run.id == id; });
+}
+
 void RunQueue::add(Job job) {
-    outcomes.erase(job.id);
+    outcomes.erase(job.run.id);
     queue.push_back(std::move(job));
+    startAll();
 }
 
 std::string RunQueue::start(const Json& wish) {
-    const std::string driver = textOf(wish, "driver"), name = textOf(wish, "name");
+    const std::string driver = textOf(wish, "driver"), wished = textOf(wish, "name");
     const Json options = optionsOf(wish);
     std::vector<std::string> words = drivers.commandLine(driver, options);
     const std::scoped_lock one(mutex);
     if (queue.size() >= mostWaiting)
         throw InputError(fmt::format("{} runs wait already; that is the most.", queue.size()));
-    const fs::path folder = freeFolder(driver, name);
-    std::error_code problem;
-    if (!fs::create_directory(folder, problem))
-        throw InputError(
-            fmt::format("The folder {} cannot be made: {}.", folder.filename().string(), problem.message()));
-    writeStart(folder, driver, options);
-    const std::string id = (folder.filename() / "run").string();
-    add({id, driver, folder, withFolder(std::move(words), folder)});
-    return id;
+    const std::string name = freeFolder(driver, wished);
+    const auto folder = std::make_shared<const OpenFolder>(runs.root().makeFolder(name));
+    const RunFiles run{textOfName(name + "/run"), folder, "run"};
+    try {
+        writeStart(*folder, driver, options);
+        add({run, driver, options, withFolder(std::move(words), *folder), lockTurn(*folder)});
+    } catch (const InputError&) {  // a full disk: the name is free again
+        folder->remove(startFile);
+        runs.root().removeFolder(name);
+        throw;
+    }
+    return run.id;
 }
 
-void RunQueue::stop(const std::string& id) {
-    const std::scoped_lock one(mutex);
-    if (std::erase_if(queue, [&](const Job& job) { return job.id == id; }) > 0) return;
+bool RunQueue::stopDriver(const std::string& id) const {
     for (const auto& [process, job] : running)
-        if (job.id == id) {
-            kill(process, SIGTERM);
-            return;
-        }
+        if (job.run.id == id) return kill(process, SIGTERM) == 0;
     const auto run = runs.find(id);  // not started by this server
-    const Locks locks;
-    pid_t holder = run ? locks.holderOf(run->file(".pendular-lock")) : 0;
-    if (run && holder == 0) holder = locks.holderOf(run->preparationFile(".pendular-lock"));
-    if (holder <= 1 || kill(holder, SIGTERM) != 0) throw InputError("This run is not under way.");
+    const pid_t driver = run ? LockedBy(*run, Locks()).driver() : 0;
+    if (driver <= 1 || isServer(driver)) return false;
+    if (kill(driver, SIGTERM) == 0) return true;
+    if (errno == EPERM)
+        throw InputError(
+            fmt::format("This run is computed by the process {}, which belongs to another user; only that "
+                        "one can stop it.",
+                        driver));
+    return false;
+}
+
+std::string RunQueue::stop(const std::string& id) {
+    const std::scoped_lock one(mutex);
+    const bool waited = std::erase_if(queue, [&](const Job& job) { return job.run.id == id; }) > 0;
+    const bool isAsked = stopDriver(id);
+    if (isAsked && waited) return "It was taken from the queue, and what computes it was asked to stop.";
+    if (isAsked) return "It was asked to stop.";
+    if (waited) return "It was taken from the queue.";
+    const auto run = runs.find(id);
+    if (!run) throw InputError("This run is not under way.");
+    const LockedBy by(*run, Locks());
+    if (by.log != 0)
+        throw InputError(
+            fmt::format("This run was started by another server (process {}), and has no lock of its own by "
+                        "which it could be stopped from here: stop it there.",
+                        by.log));
+    if (by.turn != 0)
+        throw InputError(fmt::format(
+            "This run waits in the queue of another server (process {}), which alone can take it from there.",
+            by.turn));
+    throw InputError("This run is not under way.");
 }
 
 void RunQueue::resume(const Json& wish) {
@@ -126,41 +172,75 @@ void RunQueue::resume(const Json& wish) {
     if (before.is_null())
         throw InputError(
             "Only a run that was started from this page can go on from it: its options are not known.");
-    if (Locks().holderOf(run->file(".pendular-lock")) != 0) throw InputError("This run is under way.");
     Json options = before["options"];
-    const Json others = optionsOf(wish);
-    options.update(others);
+    options.update(optionsOf(wish));
     const std::string driver = before["driver"];
-    std::vector<std::string> words = withFolder(drivers.commandLine(driver, options), run->folder);
+    std::vector<std::string> words = withFolder(drivers.commandLine(driver, options), *run->folder);
     words.emplace_back("--resume");
     const std::scoped_lock one(mutex);
-    const auto isThis = [&](const Job& job) { return job.id == id; };
-    if (std::any_of(queue.begin(), queue.end(), isThis) ||
-        std::any_of(running.begin(), running.end(), [&](const auto& r) { return isThis(r.second); }))
-        throw InputError("This run waits already, or is under way.");
-    writeStart(run->folder, driver, options);
-    add({id, driver, run->folder, std::move(words)});
+    if (waits(id)) throw InputError("This run waits in the queue already.");
+    if (computes(id)) throw InputError("This run is under way.");
+    if (queue.size() >= mostWaiting)
+        throw InputError(fmt::format("{} runs wait already; that is the most.", queue.size()));
+    Descriptor turn = lockTurn(*run->folder);
+    {
+        const StartLocks free(*run);
+        if (run->folder->hasFile(logFile)) static_cast<void>(lockLog(*run->folder));
+    }
+    add({*run, driver, std::move(options), std::move(words), std::move(turn)});
 }
 
-RunQueue::Outcome RunQueue::stateOf(const std::string& id) {
+RunQueue::Outcome RunQueue::stateOf(const RunFiles& run) {
     const std::scoped_lock one(mutex);
-    const auto isThis = [&](const Job& job) { return job.id == id; };
-    if (std::any_of(queue.begin(), queue.end(), isThis)) return {"waiting", ""};
-    if (std::any_of(running.begin(), running.end(), [&](const auto& r) { return isThis(r.second); }))
-        return {"running", ""};
-    const auto over = outcomes.find(id);
-    return over == outcomes.end() ? Outcome{} : over->second;
+    if (waits(run.id)) return {"waiting", ""};
+    if (computes(run.id)) return {"running", ""};
+    const auto over = outcomes.find(run.id);
+    if (over == outcomes.end()) return {};
+    for (const std::string& file : {run.file(SummaryFile::ending), startFile, logFile})
+        if (run.folder->changed(file) > over->second.when) return {};
+    return over->second;
+}
+
+std::vector<std::string> RunQueue::waiting() {
+    const std::scoped_lock one(mutex);
+    std::vector<std::string> ids;
+    for (const Job& job : queue) ids.push_back(job.run.id);
+    return ids;
+}
+
+/// What is on record is what is started: it is written while nothing else can start there. The lock of the
+/// log goes on to the process; the others are to be free for it.
+pid_t RunQueue::begin(const Job& job, const fs::path& program) {
+    const OpenFolder& folder = *job.run.folder;
+    const bool isFirst = !folder.hasFile(logFile);
+    try {
+        Descriptor log;
+        {
+            const StartLocks alone(job.run);
+            log = lockLog(folder);
+            writeStart(folder, job.driver, job.options);
+        }
+        return startProcess(program, job.arguments, log);
+    } catch (const InputError&) {
+        if (isFirst) folder.remove(logFile);  // a run without one was never started
+        throw;
+    }
 }
 
 void RunQueue::startNext() {
     Job job = std::move(queue.front());
     queue.pop_front();
     try {
-        const pid_t process = startProcess(drivers.program(job.driver), job.arguments, logFileOf(job.folder));
+        const pid_t process = begin(job, drivers.program(job.driver));
+        job.turn = Descriptor();
         running.emplace(process, std::move(job));
     } catch (const InputError& problem) {
-        outcomes[job.id] = {"failed", problem.what()};
+        outcomes[job.run.id] = {"failed", problem.what(), now()};
     }
+}
+
+void RunQueue::startAll() {
+    while (!queue.empty() && running.size() < atOnce) startNext();
 }
 
 void RunQueue::tend() {
@@ -171,10 +251,10 @@ void RunQueue::tend() {
             ++run;
             continue;
         }
-        outcomes[run->second.id] = outcomeOf(status);
+        outcomes[run->second.run.id] = outcomeOf(status);
         run = running.erase(run);
     }
-    while (!queue.empty() && running.size() < atOnce) startNext();
+    startAll();
 }
 
 }  // namespace pendular::view

@@ -5,19 +5,21 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Files/TextFile.h"
 #include "Kernel/Simulation/SummaryFile.h"
 #include "Tools/View/FieldMaps.h"
 #include "Tools/View/FramePack.h"
+#include "Tools/View/NameText.h"
+#include "Tools/View/StartLocks.h"
 
 namespace pendular::view {
 
@@ -28,24 +30,32 @@ namespace {
 
 constexpr std::uintmax_t mostTableBytes = 1 << 21, mostLogBytes = 1 << 14;
 
+/// The summary of a run, and the file of it, which it looks at again.
+struct OpenSummary {
+    OpenFile file;
+    SummaryFile content;
+};
+
 /// The summary, if there is one that is whole.
-std::optional<SummaryFile> summaryOf(const fs::path& file) {
-    if (!isOwnFile(file)) return {};
+std::optional<OpenSummary> summaryOf(const OpenFolder& folder, const std::string& name) {
+    auto file = folder.file(name);
+    if (!file) return {};
     try {
-        return SummaryFile(file);
+        SummaryFile content = file->readBy([](const fs::path& path) { return SummaryFile(path); });
+        return OpenSummary{std::move(*file), std::move(content)};
     } catch (const InputError&) {
         return {};
     }
 }
 
-std::string valueOf(const std::optional<SummaryFile>& summary, std::string_view quantity) {
+std::string valueOf(const std::optional<OpenSummary>& summary, std::string_view quantity) {
     if (summary)
-        for (const SummaryFile::Row& row : summary->rows())
+        for (const SummaryFile::Row& row : summary->content.rows())
             if (row.quantity == quantity) return row.value;
     return {};
 }
 
-Json numberOf(const std::optional<SummaryFile>& summary, std::string_view quantity) {
+Json numberOf(const std::optional<OpenSummary>& summary, std::string_view quantity) {
     double value = 0;
     if (!parseNumber(valueOf(summary, quantity), value)) return nullptr;
     return value;
@@ -54,27 +64,44 @@ Json numberOf(const std::optional<SummaryFile>& summary, std::string_view quanti
 struct State {
     std::string word, reason;
     bool isPreparation = false;
-    std::optional<SummaryFile> summary{};
+    std::optional<OpenSummary> summary{};
 };
 
-State stateOf(const RunFiles& run, const Locks& locks) {
-    const bool runs = locks.holderOf(run.file(".pendular-lock")) != 0;
-    State state{"", "", false, summaryOf(run.file(SummaryFile::ending))};
-    const auto preparation = summaryOf(run.preparationFile(SummaryFile::ending));
-    const bool prepares = run.name == "run" && locks.holderOf(run.preparationFile(".pendular-lock")) != 0;
-    if (prepares || (!state.summary && preparation && run.name == "run"))
-        state.isPreparation = true, state.summary = preparation;
+/// What a run has said of its end in its summary; empty: nothing.
+std::string saidEnd(const State& state) {
     const std::string told = valueOf(state.summary, "state");
+    if (told == "stopped by an error") return "failed";
+    if (told == "asked to stop") return "stopped";
+    if (told == "at its end") return state.isPreparation ? "stopped" : "ended";
+    return {};
+}
+
+/// Of a run that does not compute, and has said nothing of its end.
+void describeSilence(State& state, const RunFiles& run) {
+    const bool isStarted = run.folder->hasFile(logFile) || state.summary || !run.folder->hasFile(startFile);
+    state.word = isStarted ? "silent" : "stopped";
+    state.reason = isStarted ? "it has said nothing of its end: it was killed, or runs on another machine"
+                             : "it has not been started: it waited in a queue, and was taken from it, or its "
+                               "server ended; resume it to start it";
+}
+
+State stateOf(const RunFiles& run, const Locks& locks) {
+    const LockedBy by(run, locks);
+    State state{"", "", false, summaryOf(*run.folder, run.file(SummaryFile::ending))};
+    auto preparation = summaryOf(*run.folder, RunFiles::preparationFile(SummaryFile::ending));
+    if (by.preparation != 0 || (!state.summary && preparation && run.name == "run"))
+        state.isPreparation = true, state.summary = std::move(preparation);
     state.reason = valueOf(state.summary, "reason");
-    if (prepares) state.word = "preparing";
-    else if (runs) state.word = "running";
-    else if (told == "stopped by an error") state.word = "failed";
-    else if (told == "asked to stop") state.word = "stopped";
-    else if (told == "at its end") state.word = state.isPreparation ? "stopped" : "ended";
-    else if (locks.holderOf(run.folder / ".pendular-lock") != 0) state.word = "running";  // it begins
-    else state.word = "silent";
-    if (state.word == "silent")
-        state.reason = "it has said nothing of its end: it was killed, or runs on another machine";
+    const std::string said = saidEnd(state);
+    if (by.preparation != 0) state.word = "preparing";
+    else if (by.run != 0) state.word = "running";
+    else if (by.isLive() && said != "ended") state.word = "running";  // it begins
+    else if (by.turn != 0) state.word = "waiting";
+    else if (!said.empty()) state.word = said;
+    else describeSilence(state, run);
+    if (state.word == "waiting")
+        state.reason = fmt::format("it waits in the queue of another server (process {})", by.turn);
+    else if (state.word == "running" || state.word == "preparing") state.reason.clear();
     return state;
 }
 
@@ -82,11 +109,10 @@ State stateOf(const RunFiles& run, const Locks& locks) {
 /// then for a twentieth of the time at most: there may be a hundred thousand frames.
 class FolderSizes {
 public:
-    std::uintmax_t of(const fs::path& folder, bool isWritten) {
+    std::uintmax_t of(const OpenFolder& folder, bool isWritten) {
         const std::scoped_lock one(mutex);
-        Known& known = all[folder];
-        std::error_code problem;
-        const auto changed = fs::last_write_time(folder, problem);
+        Known& known = all[folder.path()];
+        const double changed = changedAt(folder.status());
         if ((changed == known.changed && !isWritten) || Clock::now() < known.next) return known.bytes;
         const auto begin = Clock::now();
         known = {changed, begin, count(folder)};
@@ -98,15 +124,16 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
     struct Known {
-        fs::file_time_type changed = fs::file_time_type::min();
+        double changed = -1;  // s since 1970
         Clock::time_point next = Clock::time_point::min();
         std::uintmax_t bytes = 0;
     };
-    static std::uintmax_t count(const fs::path& folder) {
+    static std::uintmax_t count(const OpenFolder& folder) {
         std::uintmax_t sum = 0;
-        std::error_code problem;
-        for (const auto& entry : fs::directory_iterator(folder, problem))
-            if (isOwnFile(entry.path())) sum += entry.file_size(problem);
+        folder.forEachFile([&](const std::string& name) {
+            if (const auto status = folder.status(name); status && S_ISREG(status->st_mode))
+                sum += static_cast<std::uintmax_t>(status->st_size);
+        });
         return sum;
     }
 
@@ -116,42 +143,34 @@ private:
 
 std::uintmax_t bytesOf(const RunFiles& run, bool isWritten) {
     static FolderSizes sizes;
-    return sizes.of(run.folder, isWritten);
-}
-
-double changedAt(const fs::path& file) {
-    std::error_code problem;
-    const auto when = fs::last_write_time(file, problem);
-    if (problem) return 0;
-    return std::chrono::duration<double>(std::chrono::file_clock::to_sys(when).time_since_epoch()).count();
+    return sizes.of(*run.folder, isWritten);
 }
 
 Json overviewOf(const RunFiles& run, const State& state) {
     const Json start = startOf(run);
-    return {{"id", run.id},
-            {"state", state.word},
-            {"reason", state.reason},
-            {"driver", start.is_object() ? start["driver"] : Json(nullptr)},
-            {"time", numberOf(state.summary, "time")},
-            {"endTime", numberOf(state.summary, "end time")},
-            {"grains", numberOf(state.summary, "grains")},
-            {"healthy", state.summary ? Json(state.summary->complaints().empty()) : Json(nullptr)},
-            {"bytes", bytesOf(run, state.word == "running" || state.word == "preparing")},
-            {"changed", changedAt(state.isPreparation ? run.preparationFile(SummaryFile::ending)
-                                                      : run.file(SummaryFile::ending))}};
+    return {
+        {"id", run.id},
+        {"state", state.word},
+        {"reason", state.reason},
+        {"driver", start.is_object() ? start["driver"] : Json(nullptr)},
+        {"time", numberOf(state.summary, "time")},
+        {"endTime", numberOf(state.summary, "end time")},
+        {"grains", numberOf(state.summary, "grains")},
+        {"healthy", state.summary ? Json(state.summary->content.complaints().empty()) : Json(nullptr)},
+        {"bytes", bytesOf(run, state.word == "running" || state.word == "preparing")},
+        {"changed", run.folder->changed(state.isPreparation ? RunFiles::preparationFile(SummaryFile::ending)
+                                                            : run.file(SummaryFile::ending))}};
 }
 
 /// NAME.csv and, of a run that is on its way, NAME.csv.part: as NAME.csv.
-std::vector<std::string> tablesOf(const RunFiles& run) {
+std::set<std::string> tablesOf(const RunFiles& run) {
     std::set<std::string> names;
-    std::error_code problem;
-    for (const auto& entry : fs::directory_iterator(run.folder, problem)) {
-        std::string name = entry.path().filename().string();
+    run.folder->forEachFile([&](std::string name) {
         if (name.ends_with(".part")) name.resize(name.size() - 5);
-        if (!name.ends_with(".csv") || name.ends_with(SummaryFile::ending) || name[0] == '.') continue;
-        if (isOwnFile(entry.path())) names.insert(name);
-    }
-    return {names.begin(), names.end()};
+        if (name.ends_with(".csv") && !name.ends_with(SummaryFile::ending) && name[0] != '.')
+            names.insert(std::move(name));
+    });
+    return names;
 }
 
 Json mapsOf(const RunFiles& run) {
@@ -159,35 +178,27 @@ Json mapsOf(const RunFiles& run) {
     for (const FieldSeries& series : fieldSeriesOf(run)) {
         Json times = Json::array();
         for (const FieldSeries::Entry& entry : series.entries) times.push_back(entry.time);
-        maps.push_back({{"name", series.name}, {"times", std::move(times)}});
+        maps.push_back({{"name", textOfName(series.name)}, {"times", std::move(times)}});
     }
     return maps;
 }
 
 /// The table of this name, the part that is being written before the whole one of an earlier run.
-fs::path tableFile(const RunFiles& run, const std::string& table) {
-    const std::vector<std::string> known = tablesOf(run);
-    if (std::find(known.begin(), known.end(), table) == known.end())
-        throw InputError(fmt::format("view: the run has no table {}.", shown(table)));
-    const fs::path part = run.folder / (table + ".part");
-    return isOwnFile(part) ? part : run.folder / table;
-}
-
-std::string bytesFrom(const fs::path& path, std::uintmax_t from, std::uintmax_t most) {
-    std::ifstream file(path, std::ios::binary);
-    file.seekg(static_cast<std::streamoff>(from));
-    std::string text(most, '\0');
-    file.read(text.data(), static_cast<std::streamsize>(most));
-    text.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
-    return text;
+OpenFile tableFile(const RunFiles& run, const std::string& table) {
+    const std::string name = nameOfText(table).value_or("");
+    std::optional<OpenFile> file;
+    if (tablesOf(run).contains(name)) {
+        file = run.folder->file(name + ".part");
+        if (!file) file = run.folder->file(name);
+    }
+    if (!file) throw InputError(fmt::format("view: the run has no table {}.", shown(table)));
+    return std::move(*file);
 }
 
 std::string endOfLog(const RunFiles& run) {
-    const fs::path log = logFileOf(run.folder);
-    std::error_code problem;
-    const std::uintmax_t size = isOwnFile(log) ? fs::file_size(log, problem) : 0;
-    return size == 0 || problem ? ""
-                                : bytesFrom(log, size > mostLogBytes ? size - mostLogBytes : 0, mostLogBytes);
+    const auto log = run.folder->file(logFile);
+    const std::uintmax_t size = log ? log->size() : 0;
+    return size == 0 ? "" : log->bytes(size > mostLogBytes ? size - mostLogBytes : 0, mostLogBytes);
 }
 
 Json cellsOf(const std::string& line) {
@@ -202,12 +213,10 @@ Json cellsOf(const std::string& line) {
 
 }  // namespace
 
-fs::path logFileOf(const fs::path& folder) { return folder / "view-output.txt"; }
-
 Json startOf(const RunFiles& run) {
-    const fs::path file = run.folder / startFile;
-    if (!isOwnFile(file)) return nullptr;
-    const Json start = Json::parse(bytesFrom(file, 0, mostTableBytes), nullptr, false);
+    const auto file = run.folder->file(startFile);
+    if (!file) return nullptr;
+    const Json start = Json::parse(file->bytes(0, mostTableBytes), nullptr, false);
     const bool isWhole = start.is_object() && start.contains("driver") && start["driver"].is_string() &&
                          start.contains("options") && start["options"].is_object();
     return isWhole ? start : Json(nullptr);
@@ -228,10 +237,11 @@ Json details(const RunFiles& run) {
     Json all = overviewOf(run, state);
     all["rows"] = all["complaints"] = all["frames"] = Json::array();
     if (state.summary) {
-        for (const SummaryFile::Row& row : state.summary->rows())
+        const SummaryFile& summary = state.summary->content;
+        for (const SummaryFile::Row& row : summary.rows())
             all["rows"].push_back({row.quantity, row.value, row.unit});
-        all["complaints"] = state.summary->complaints();
-        all["remark"] = state.summary->remark();
+        all["complaints"] = summary.complaints();
+        all["remark"] = summary.remark();
     }
     try {
         for (const FrameEntry& frame : framesOf(run))
@@ -239,8 +249,9 @@ Json details(const RunFiles& run) {
     } catch (const InputError& problem) {
         all["frameProblem"] = problem.what();
     }
-    all["stateWritten"] = changedAt(run.file("-restart.h5"));
-    all["tables"] = tablesOf(run);
+    all["stateWritten"] = run.folder->changed(run.file("-restart.h5"));
+    all["tables"] = Json::array();
+    for (const std::string& name : tablesOf(run)) all["tables"].push_back(textOfName(name));
     all["maps"] = mapsOf(run);
     all["log"] = endOfLog(run);
     all["start"] = startOf(run);
@@ -248,8 +259,8 @@ Json details(const RunFiles& run) {
 }
 
 std::string tableRows(const RunFiles& run, const std::string& table, std::uintmax_t from) {
-    const fs::path file = tableFile(run, table);
-    std::string head = bytesFrom(file, 0, 1 << 16);
+    const OpenFile file = tableFile(run, table);
+    const std::string head = file.bytes(0, 1 << 16);
     const std::size_t endOfHead = head.find('\n');
     if (endOfHead == head.npos)
         return Json{{"columns", Json::array()}, {"rows", Json::array()}, {"next", 0}, {"begins", true}}
@@ -257,10 +268,9 @@ std::string tableRows(const RunFiles& run, const std::string& table, std::uintma
     Json columns = Json::array();
     std::istringstream names(head.substr(0, endOfHead));
     for (std::string name; std::getline(names, name, ',');) columns.push_back(name);
-    std::error_code problem;
-    const bool begins = from <= endOfHead || from > fs::file_size(file, problem);
+    const bool begins = from <= endOfHead || from > file.size();
     const std::uintmax_t begin = begins ? endOfHead + 1 : from;
-    std::string text = bytesFrom(file, begin, mostTableBytes);
+    std::string text = file.bytes(begin, mostTableBytes);
     text.resize(text.rfind('\n') == text.npos ? 0 : text.rfind('\n') + 1);
     Json rows = Json::array();
     std::istringstream lines(text);

@@ -7,9 +7,10 @@
 
 namespace pendular::view {
 
-/// How a run is, in a few words for the list of runs, from its summary and its lock: id, state ("preparing",
-/// "running", "ended", "stopped", "failed", "silent"), reason, time and endTime (s), healthy (null: nothing
-/// is known of it yet), grains, bytes of its folder, changed (s since 1970, of the summary), driver.
+/// How a run is, in a few words for the list of runs, from its summary and its locks: id, state ("preparing",
+/// "running", "waiting" in the queue of another server, "ended", "stopped", "failed", "silent"), reason, time
+/// and endTime (s), healthy (null: nothing is known of it yet), grains, bytes of its folder, changed (s since
+/// 1970, of the summary), driver.
 nlohmann::ordered_json overview(const RunFiles& run, const Locks& locks);
 
 /// All that the page of a run needs but frames and tables themselves: the overview, the rows of the summary,
@@ -24,9 +25,8 @@ std::string tableRows(const RunFiles& run, const std::string& table, std::uintma
 
 /// What a run was started with from the page; null where it was started otherwise.
 nlohmann::ordered_json startOf(const RunFiles& run);
-/// Where what a run prints goes that was started from the page.
-std::filesystem::path logFileOf(const std::filesystem::path& folder);
-/// The last error in that, as runProgram() and the command line print it: of a run that could not begin, why.
+/// The last error in what a run has printed that was started from the page, as runProgram() and the command
+/// line print it: of a run that could not begin, why.
 std::string errorOf(const RunFiles& run);
 
 }  // namespace pendular::view

@@ -2,6 +2,7 @@
 /// goes on with runs.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <malloc.h>
 #include <poll.h>
@@ -127,6 +128,15 @@ void serve(Api& api, Server& server, const sigset_t& ends, bool endsWithInput) {
     }
 }
 
+/// Runs that wait end with the server: they were not started.
+void sayWaiting(const std::vector<std::string>& ids) {
+    if (!ids.empty())
+        fmt::print("{} that waited {} not started: {}. Resume {} from the page to start {}.\n",
+                   ids.size() == 1 ? "A run" : fmt::format("{} runs", ids.size()),
+                   ids.size() == 1 ? "was" : "were", fmt::join(ids, ", "), ids.size() == 1 ? "it" : "them",
+                   ids.size() == 1 ? "it" : "them");
+}
+
 /// Frames are large and gone soon: their memory goes back to the system at once, and is not kept for each
 /// thread.
 void giveBackMemory() {
@@ -155,9 +165,10 @@ int run(const Options& o) {
     fmt::print(
         "Runs in {}. Open this address in a browser; Ctrl-C ends the server, not the runs.\n"
         "http://{}:{}/?token={}\n",
-        runs.root().string(), printedHost(o), server.port(), token);
+        runs.root().path().string(), printedHost(o), server.port(), token);
     std::fflush(stdout);
     serve(api, server, ends, o.endsWithInput);
+    sayWaiting(api.waiting());
     return 0;
 }
 

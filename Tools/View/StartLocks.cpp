@@ -1,0 +1,85 @@
+#include "Tools/View/StartLocks.h"
+
+#include <sys/file.h>
+
+#include <cerrno>
+
+namespace pendular::view {
+
+namespace {
+
+constexpr std::string_view lockEnding = ".pendular-lock";
+
+/// 0, or the reason for which there is no lock.
+int lock(const Descriptor& file) {
+    while (flock(file.get(), LOCK_EX | LOCK_NB) != 0)
+        if (errno != EINTR) return errno;
+    return 0;
+}
+
+std::string processOf(pid_t process) { return process > 0 ? fmt::format(" (process {})", process) : ""; }
+
+/// Where another has the lock, says so. Where the file system knows no locks, there is none.
+Descriptor lockFile(const OpenFolder& folder, const std::string& name, std::string_view whatIfTaken) {
+    for (int tries = 0; tries < 100; ++tries) {
+        Descriptor file = folder.append(name);
+        if (lock(file) == EWOULDBLOCK)
+            throw InputError(fmt::format("{}{}.", whatIfTaken, processOf(Locks().holderOf(folder, name))));
+        if (folder.isAt(name, file)) return file;  // else another has replaced it meanwhile
+    }
+    folder.refuse(name, "is replaced again and again");
+}
+
+/// A sentence for what the table of locks shows; the locks themselves decide.
+void refuseLive(const RunFiles& run) {
+    const LockedBy by(run, Locks());
+    if (by.preparation != 0)
+        throw InputError(
+            fmt::format("This run is under way: it still prepares its first grains{}, and cannot be resumed "
+                        "before it has; wait, or stop it.",
+                        processOf(by.preparation)));
+    if (by.run != 0) throw InputError(fmt::format("This run is under way{}.", processOf(by.run)));
+    if (by.folder != 0)
+        throw InputError(
+            fmt::format("This run, or another one in its folder, is under way{}.", processOf(by.folder)));
+}
+
+}  // namespace
+
+StartLocks::StartLocks(const RunFiles& run) {
+    refuseLive(run);
+    const OpenFolder& in = *run.folder;
+    byDescriptor(in.descriptor(), in.path(), [&](const std::filesystem::path& at) {
+        constexpr std::string_view advice = "stop it";
+        folder.emplace(at / folderLock, "This run is under way: its folder is", advice);
+        preparation.emplace(
+            at / RunFiles::preparationFile(lockEnding),
+            "This run is under way, still prepares its first grains, and cannot be resumed: they are",
+            advice);
+        own.emplace(at / run.file(lockEnding), "This run is under way: its files are", advice);
+    });
+}
+
+Descriptor lockTurn(const OpenFolder& folder) {
+    return lockFile(folder, startFile,
+                    "This run, or another one in its folder, waits in the queue of a server");
+}
+
+Descriptor lockLog(const OpenFolder& folder) {
+    return lockFile(folder, logFile, "This run is under way; it was started by a server");
+}
+
+LockedBy::LockedBy(const RunFiles& files, const Locks& locks) {
+    const OpenFolder& in = *files.folder;
+    folder = locks.holderOf(in, folderLock);
+    if (files.name == "run") preparation = locks.holderOf(in, RunFiles::preparationFile(lockEnding));
+    run = locks.holderOf(in, files.file(lockEnding));
+    turn = locks.holderOf(in, startFile), log = locks.holderOf(in, logFile);
+}
+
+pid_t LockedBy::driver() const {
+    if (run != 0) return run;
+    return preparation != 0 ? preparation : folder;
+}
+
+}  // namespace pendular::view
