@@ -1,6 +1,7 @@
 #include "Kernel/Files/ReadingProcess.h"
 
 #include <dirent.h>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -66,22 +67,28 @@ void takeDefaultSignals() {
     pthread_sigmask(SIG_UNBLOCK, &faults, nullptr);
 }
 
-/// Closes the sockets of this program in the child, which would keep the connections of others open: those of
-/// other reading processes, and of a server.
-void closeOtherSockets(int own) {
+/// Whether the child has no use for an open file of this program, and would keep from others what it stands
+/// for: a connection (of another reading process, or of a server), or a lock, which is on a file that is open
+/// for writing.
+bool isOfParent(int descriptor) {
+    struct stat file {};
+    if (fstat(descriptor, &file) != 0) return false;
+    return S_ISSOCK(file.st_mode) ||
+           (S_ISREG(file.st_mode) && (fcntl(descriptor, F_GETFL) & O_ACCMODE) != O_RDONLY);
+}
+
+void closeFilesOfParent(int own) {
     DIR* const folder = opendir("/proc/self/fd");
     if (!folder) return;
-    std::vector<int> sockets;
+    std::vector<int> found;
     while (const dirent* const entry = readdir(folder)) {
         int descriptor = -1;
-        struct stat file {};
         std::from_chars(entry->d_name, entry->d_name + std::strlen(entry->d_name), descriptor);
-        if (descriptor > STDERR_FILENO && descriptor != own && fstat(descriptor, &file) == 0 &&
-            S_ISSOCK(file.st_mode))
-            sockets.push_back(descriptor);
+        if (descriptor > STDERR_FILENO && descriptor != own && isOfParent(descriptor))
+            found.push_back(descriptor);
     }
     closedir(folder);
-    for (const int descriptor : sockets) close(descriptor);
+    for (const int descriptor : found) close(descriptor);
 }
 
 /// All that the child does.
@@ -92,7 +99,7 @@ void closeOtherSockets(int own) {
     limit(RLIMIT_CPU, limits.seconds);
     ReadingProcess::allowMemory(limits.memory);
     try {
-        closeOtherSockets(socket);
+        closeFilesOfParent(socket);
         work(ReadingProcess::Channel(socket));
     } catch (const std::bad_alloc&) {
         _exit(outOfMemory);
