@@ -31,10 +31,10 @@ using hdf5::makeQuiet, hdf5::nativeType, hdf5::Object;
 
 namespace {
 
-/// What this process does with the library, which is not made for several threads, while scenes of several may
-/// be read at the same time. Each file that is read has a child process, in which the functions below go to
-/// the library; in this process they go to the child. A child begins with a Use of its own: the lock of this
-/// process would stay held in it, and the children are not its own.
+/// What this process does with the library, which is not made for several threads, while scenes of several
+/// may be read at the same time. Each file that is read has a child process, in which the functions below go
+/// to the library; in this process they go to the child. A child begins with a Use of its own: the lock of
+/// this process would stay held in it, and the children are not its own.
 struct Use {
     std::recursive_mutex mutex;
     std::map<const Hdf5File*, std::unique_ptr<Hdf5Reading>> readings;
@@ -51,7 +51,8 @@ struct Alone {
     const hdf5::WithoutMessages messages{};
 };
 
-/// The most bytes of numbers that a table can have by what is stored of it. Deflate packs 1032 bytes into one.
+/// The most bytes of numbers that a table can have by what is stored of it. Deflate packs 1032 bytes into
+/// one.
 double mostBytes(hid_t set, double stored, double fileSize) {
     const Object creation(H5Dget_create_plist(set), H5Pclose);  // to ask takes longer than all the rest
     if (H5Pget_layout(creation) != H5D_CHUNKED) return fileSize;

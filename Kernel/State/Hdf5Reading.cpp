@@ -11,7 +11,7 @@ namespace pendular {
 namespace {
 
 /// Beside the table that is read. The library takes memory by sizes that a file claims.
-constexpr std::size_t memoryOfLibrary = std::size_t{128} << 20;        // bytes
+constexpr std::size_t memoryOfLibrary = std::size_t{128} << 20;       // bytes
 constexpr std::size_t longestName = 1 << 16, longestText = 64 << 20;  // bytes
 constexpr unsigned bytesPerSecond = 10'000'000;                       // at least: those of a slow disk
 
@@ -43,9 +43,8 @@ ReadingProcess::Limits limitsFor(const std::filesystem::path& file) {
 }  // namespace
 
 Hdf5Reading::Hdf5Reading(const std::function<void()>& open, const Hdf5File& file)
-    : place(file.path()), process(limitsFor(place), [&](const ReadingProcess::Channel& channel) {
-          serve(channel, open, file);
-      }) {
+    : place(file.path()),
+      process(limitsFor(place), [&](const ReadingProcess::Channel& channel) { serve(channel, open, file); }) {
     Answer opened{};
     requireTaken(opened, process.channel().receive(&opened, sizeof opened));
 }
@@ -105,10 +104,10 @@ Hdf5Reading::Answer Hdf5Reading::answerTo(const Request& request, const std::str
 void Hdf5Reading::requireTaken(const Answer& answer, bool received) {
     if (received && !answer.isRefused) return;
     if (received) throw InputError(contentOf(answer));
-    throw InputError(
-        fmt::format("The file {} is damaged: the HDF5 library cannot read it (the process in which it did {}); "
-                    "take another one.",
-                    place.string(), process.howItEnded()));
+    throw InputError(fmt::format(
+        "The file {} is damaged: the HDF5 library cannot read it (the process in which it did {}); "
+        "take another one.",
+        place.string(), process.howItEnded()));
 }
 
 std::string Hdf5Reading::contentOf(const Answer& answer) {

@@ -39,8 +39,7 @@ py::object readTable(const Hdf5File& file, const std::string& name) {
 
 /// All tables (rows x columns) and texts of an HDF5 file whose names begin so.
 py::dict readTables(const std::filesystem::path& path, const std::string& begin) {
-    const auto file =
-        withoutPython([&] { return std::make_unique<Hdf5File>(path, Hdf5File::Access::Read); });
+    const auto file = withoutPython([&] { return std::make_unique<Hdf5File>(path, Hdf5File::Access::Read); });
     py::dict tables;
     for (const std::string& name : file->names())
         if (name.starts_with(begin)) tables[py::str(name)] = readTable(*file, name);

@@ -28,7 +28,7 @@ std::string unreadable(ReadingProcess& process) {
 
 /// Of a run of which no more can be told.
 std::string unreadableOverview(const std::string& id, const std::string& reason) {
-    return Json{{"id", id},         {"state", "silent"}, {"reason", reason}, {"driver", nullptr},
+    return Json{{"id", id},         {"state", "silent"},  {"reason", reason},  {"driver", nullptr},
                 {"time", nullptr},  {"endTime", nullptr}, {"grains", nullptr}, {"healthy", false},
                 {"bytes", nullptr}, {"changed", 0.0}}
         .dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -49,8 +49,8 @@ Reply replyOf(const std::function<Reply()>& compute) {
     } catch (const InputError& problem) {
         return sentence(400, problem.what());
     } catch (const std::exception& problem) {
-        return sentence(
-            500, fmt::format("The server has met a fault: {}.", withoutFullStop(sentenceOf(problem))));
+        return sentence(500,
+                        fmt::format("The server has met a fault: {}.", withoutFullStop(sentenceOf(problem))));
     }
 }
 
@@ -80,8 +80,7 @@ std::vector<std::string> overviewsApart(std::size_t memory, const RunFolder& run
         std::string text;
         while (all.size() < ids.size() && process.channel().receiveText(text, longestAnswer))
             all.push_back(text);
-        if (all.size() < ids.size())
-            all.push_back(unreadableOverview(ids[all.size()], unreadable(process)));
+        if (all.size() < ids.size()) all.push_back(unreadableOverview(ids[all.size()], unreadable(process)));
     }
     return all;
 }

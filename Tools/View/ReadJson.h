@@ -7,8 +7,8 @@ namespace pendular::view {
 
 inline constexpr int deepestJson = 64;  // lists and objects in each other
 
-/// Whether the brackets of a text of JSON are nested deeper than deepestJson. What is no JSON is refused by the
-/// parser, before the first bracket that is counted wrongly here.
+/// Whether the brackets of a text of JSON are nested deeper than deepestJson. What is no JSON is refused by
+/// the parser, before the first bracket that is counted wrongly here.
 inline bool isTooDeep(std::string_view text) {
     int depth = 0;
     bool isString = false;
