@@ -30,7 +30,6 @@ namespace {
 
 enum ExitCode : int { done = 0, outOfMemory = 3, failed = 4 };
 
-// The sanitizers map terabytes of addresses, more of them with each block of memory.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool limitsAddresses = false;
 #elif defined(__has_feature)
@@ -203,6 +202,8 @@ const std::string& ReadingProcess::howItEnded() {
     else end = toText(status, limits);
     return end;
 }
+
+bool ReadingProcess::limitsMemory() { return limitsAddresses; }
 
 void ReadingProcess::allowMemory(std::size_t bytes) {
     const std::size_t now = limitsAddresses ? addressSpace() : 0;

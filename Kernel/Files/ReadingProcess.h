@@ -51,6 +51,8 @@ public:
     /// fault)". Ends it if it only was silent.
     [[nodiscard]] const std::string& howItEnded();
 
+    /// Whether memory is limited at all: under the sanitizers, which map terabytes of addresses, it is not.
+    static bool limitsMemory();
     /// In the child: from now on so many bytes more than it has now, instead of Limits::memory.
     static void allowMemory(std::size_t bytes);
 

@@ -32,6 +32,16 @@ constexpr std::size_t bytesOf(NumberKind kind) {
     return 0;
 }
 
+/// One message, which wakes the other process once.
+template <class Head>
+bool sendTogether(const ReadingProcess::Channel& to, const Head& head, std::string_view text) {
+    std::string message(reinterpret_cast<const char*>(&head), sizeof head);
+    constexpr std::size_t longestMessage = 1 << 16;
+    if (text.size() > longestMessage) return to.send(&head, sizeof head) && to.send(text.data(), text.size());
+    message += text;
+    return to.send(message.data(), message.size());
+}
+
 std::size_t bytesOf(const TableShape& shape) { return shape.rows * shape.columns * bytesOf(shape.kind); }
 
 ReadingProcess::Limits limitsFor(const std::filesystem::path& file) {
@@ -66,10 +76,11 @@ void Hdf5Reading::serve(const ReadingProcess::Channel& channel, const std::funct
             content = problem.what();
         }
         answer.bytes = content.size();
-        if (!channel.send(&answer, sizeof answer) || !channel.send(content.data(), content.size())) return;
-        if (answer.isRefused && !isOpen) return;
+        if (!sendTogether(channel, answer, content) || (answer.isRefused && !isOpen)) return;
         isOpen = true;
-    } while (channel.receive(&request, sizeof request) && channel.receiveText(name, longestName));
+        if (!channel.receive(&request, sizeof request) || request.nameLength > longestName) return;
+        name.resize(request.nameLength);
+    } while (channel.receive(name.data(), name.size()));
 }
 
 Hdf5Reading::Answer Hdf5Reading::answerTo(const Request& request, const std::string& name,
@@ -118,25 +129,25 @@ std::string Hdf5Reading::contentOf(const Answer& answer) {
     return content;
 }
 
-Hdf5Reading::Answer Hdf5Reading::ask(const Request& request, const std::string& name) {
+Hdf5Reading::Answer Hdf5Reading::ask(Request request, const std::string& name) {
     const ReadingProcess::Channel& channel = process.channel();
     Answer answer{};
-    requireTaken(answer, channel.send(&request, sizeof request) && channel.sendText(name) &&
-                             channel.receive(&answer, sizeof answer));
+    request.nameLength = name.size();
+    requireTaken(answer, sendTogether(channel, request, name) && channel.receive(&answer, sizeof answer));
     return answer;
 }
 
 std::vector<std::string> Hdf5Reading::names() {
-    std::istringstream list(contentOf(ask({What::Names, {}, 0, 0}, {})));
+    std::istringstream list(contentOf(ask({.what = What::Names}, {})));
     std::vector<std::string> found;
     for (std::string name; std::getline(list, name, '\0');) found.push_back(name);
     return found;
 }
 
-bool Hdf5Reading::holds(const std::string& name) { return ask({What::Holds, {}, 0, 0}, name).isThere != 0; }
+bool Hdf5Reading::holds(const std::string& name) { return ask({.what = What::Holds}, name).isThere != 0; }
 
 std::optional<TableShape> Hdf5Reading::shapeOf(const std::string& name) {
-    const Answer answer = ask({What::Shape, {}, 0, 0}, name);
+    const Answer answer = ask({.what = What::Shape}, name);
     if (!answer.isThere) return {};
     return TableShape{answer.kind, answer.rows, answer.columns};
 }
@@ -149,7 +160,7 @@ void Hdf5Reading::read(const std::string& name, const TableShape& shape, void* n
 }
 
 std::string Hdf5Reading::readText(const std::string& name) {
-    return contentOf(ask({What::Text, {}, 0, 0}, name));
+    return contentOf(ask({.what = What::Text}, name));
 }
 
 }  // namespace pendular

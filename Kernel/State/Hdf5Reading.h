@@ -27,8 +27,8 @@ private:
     enum class What : std::uint32_t { Names, Holds, Shape, Table, Text };
     struct Request {
         What what;
-        NumberKind kind;
-        std::uint64_t rows, columns;
+        NumberKind kind{};
+        std::uint64_t rows = 0, columns = 0, nameLength = 0;
     };
     struct Answer {
         std::uint32_t isRefused, isThere;
@@ -40,7 +40,7 @@ private:
                       const Hdf5File& file);
     static Answer answerTo(const Request& request, const std::string& name, const Hdf5File& file,
                            std::string& content);
-    Answer ask(const Request& request, const std::string& name);
+    Answer ask(Request request, const std::string& name);
     /// Throws InputError where the child has refused; @param received whether its answer has come
     void requireTaken(const Answer& answer, bool received);
     std::string contentOf(const Answer& answer);

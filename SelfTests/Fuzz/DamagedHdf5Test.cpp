@@ -124,7 +124,8 @@ TEST_F(DamagedHdf5, theLibrarysOwnCrashIsASentence) {
 TEST_F(DamagedHdf5, aFrameWithOneChangedByteTakesNoMemory) {
     const std::string file = "damaged/frame-one-byte.h5";
     if (!support::hasSharedData(file)) GTEST_SKIP() << support::withoutSharedData(file);
-    const std::string text = refusal([&] { readHdf5Frame(support::sharedData(file)); });
+    std::filesystem::copy_file(support::sharedData(file), path);
+    const std::string text = refusal([&] { readHdf5Frame(path); });
     EXPECT_TRUE(isOneSentence(text));
     EXPECT_TRUE(contains(text, "has fewer bytes than particles/body is to have numbers") ||
                 contains(text, "has no table or text at particles/body"))
