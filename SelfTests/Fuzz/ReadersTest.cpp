@@ -90,7 +90,9 @@ TEST_P(Readers, standDamagedFiles) {
         }
     }
     // Files of some kB may claim more, and get none of it.
-    if (ReadingProcess::limitsMemory()) EXPECT_LT(peakMemory(), 200'000);
+    if (ReadingProcess::limitsMemory()) {
+        EXPECT_LT(peakMemory(), 200'000);
+    }
     EXPECT_GT(refused, tries / 20);
     EXPECT_GT(taken, target.name == "RestartFile" ? 0 : tries / 100);
     RecordProperty("taken", static_cast<int>(taken));
