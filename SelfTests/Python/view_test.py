@@ -36,6 +36,11 @@ def shown(capsys):
     return capsys.readouterr().out.strip()
 
 
+def test_names_that_are_no_utf8_have_the_text_of_the_server():
+    assert pendular._view._text_of("caf\udce9/100%") == "caf%E9/100%25"
+    assert pendular._view._text_of("café/run") == "café/run"
+
+
 def test_it_prints_an_address_that_answers(capsys):
     scene = tower("results/run")
     scene.write_paraview(1e-3)

@@ -4,7 +4,7 @@
 #   SelfTests/CompileFail/*.cpp  must not compile, with the message they expect (CheckCompileFailure.cmake)
 #   SelfTests/Hosts/Library/     a library of species, loaded by the test program of SelfTests/Hosts/
 #   SelfTests/Python/            tests of the Python module (AddPythonTests.cmake)
-#   SelfTests/View/              tests of the program view (AddViewTests.cmake)
+#   SelfTests/View/              tests of the program view: also with a browser, in Python (AddViewTests.cmake)
 #   SelfTests/OutOfTree/         a driver outside the tree, built against the installed kernel (CheckOutOfTree.cmake)
 # Labels, by the beginning of the suite's name:
 #   fast   all that are not named otherwise
@@ -86,6 +86,9 @@ list(REMOVE_ITEM testFolders CompileFail OutOfTree)
 if(NOT PENDULAR_BUILD_STUDIES)
     list(REMOVE_ITEM testFolders Species/Composition)
 endif()
+if(NOT TARGET PendularView)
+    list(REMOVE_ITEM testFolders View)
+endif()
 # Under a sanitizer, formulas and published figures are left out: a fifth of the build, no memory of its own. With
 # PENDULAR_QUICK_TEST_BUILD, as CI has it, so is all that random scenes do as well (Fuzz/RandomScenes).
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
@@ -135,6 +138,9 @@ if(TARGET SelfTestHosts)
     add_dependencies(SelfTestHosts QuadraticSpring)
 endif()
 
+if(TARGET SelfTestView)
+    target_link_libraries(SelfTestView PRIVATE PendularView)
+endif()
 if(TARGET PendularView AND TARGET SelfTestFuzz)
     target_link_libraries(SelfTestFuzz PRIVATE PendularView)
     target_compile_definitions(SelfTestFuzz PRIVATE PENDULAR_HAS_VIEW)

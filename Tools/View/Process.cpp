@@ -76,12 +76,14 @@ std::string readAll(int end, std::chrono::steady_clock::time_point until) {
 }  // namespace
 
 pid_t startProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                   const Descriptor& output) {
+                   const Descriptor& folder, const Descriptor& output) {
     Spawn spawn;
+    posix_spawn_file_actions_addfchdir_np(&spawn.files, folder.get());
     posix_spawn_file_actions_adddup2(&spawn.files, output.get(), 1);
     posix_spawn_file_actions_adddup2(&spawn.files, 1, 2);
     int problem = 0;
-    const pid_t process = spawn.run(program, arguments, problem);
+    // The folder changes before the program is found.
+    const pid_t process = spawn.run(std::filesystem::absolute(program), arguments, problem);
     if (process == 0)
         throw InputError(fmt::format("view: {} cannot be started: {}.", program.filename().string(),
                                      std::strerror(problem)));

@@ -58,10 +58,8 @@ RunQueue::Outcome outcomeOf(int status) {
     return {"failed", code == 1 ? "" : fmt::format("it ended with the exit code {}", code), now()};
 }
 
-std::vector<std::string> withFolder(std::vector<std::string> words, const OpenFolder& folder) {
-    words.push_back("--output=" + folder.path().string());
-    return words;
-}
+/// A run writes into the folder in which it is started, by its handle: a path could lead elsewhere by then.
+constexpr const char* ownFolder = "--output=.";
 
 /// Whether a process is a server as this one: it has locks for a moment, and is never stopped as a run.
 bool isServer(pid_t process) {
@@ -101,6 +99,11 @@ bool RunQueue::computes(const std::string& id) const {
     return std::ranges::any_of(running, [&](const auto& one) { return one.second.run.id == id; });
 }
 
+void RunQueue::refuseMore() const {
+    if (queue.size() >= mostWaiting)
+        throw InputError(fmt::format("{} runs wait already; that is the most.", queue.size()));
+}
+
 void RunQueue::add(Job job) {
     outcomes.erase(job.run.id);
     queue.push_back(std::move(job));
@@ -111,15 +114,15 @@ std::string RunQueue::start(const Json& wish) {
     const std::string driver = textOf(wish, "driver"), wished = textOf(wish, "name");
     const Json options = optionsOf(wish);
     std::vector<std::string> words = drivers.commandLine(driver, options);
+    words.emplace_back(ownFolder);
     const std::scoped_lock one(mutex);
-    if (queue.size() >= mostWaiting)
-        throw InputError(fmt::format("{} runs wait already; that is the most.", queue.size()));
+    refuseMore();
     const std::string name = freeFolder(driver, wished);
     const auto folder = std::make_shared<const OpenFolder>(runs.root().makeFolder(name));
     const RunFiles run{textOfName(name + "/run"), folder, "run"};
     try {
         writeStart(*folder, driver, options);
-        add({run, driver, options, withFolder(std::move(words), *folder), lockTurn(*folder)});
+        add({run, driver, options, std::move(words), lockTurn(*folder)});
     } catch (const InputError&) {  // a full disk: the name is free again
         folder->remove(startFile);
         runs.root().removeFolder(name);
@@ -132,8 +135,10 @@ bool RunQueue::stopDriver(const std::string& id) const {
     for (const auto& [process, job] : running)
         if (job.run.id == id) return kill(process, SIGTERM) == 0;
     const auto run = runs.find(id);  // not started by this server
-    const pid_t driver = run ? LockedBy(*run, Locks()).driver() : 0;
-    if (driver <= 1 || isServer(driver)) return false;
+    if (!run) return false;
+    const LockedBy by(*run, Locks());
+    const pid_t driver = by.driver() != 0 && !isServer(by.driver()) ? by.driver() : startedIn(*run->folder);
+    if (driver <= 1) return false;
     if (kill(driver, SIGTERM) == 0) return true;
     if (errno == EPERM)
         throw InputError(
@@ -155,8 +160,8 @@ std::string RunQueue::stop(const std::string& id) {
     const LockedBy by(*run, Locks());
     if (by.log != 0)
         throw InputError(
-            fmt::format("This run was started by another server (process {}), and has no lock of its own by "
-                        "which it could be stopped from here: stop it there.",
+            fmt::format("This run was started by another server (process {}), and its process cannot be seen "
+                        "from here: stop it there.",
                         by.log));
     if (by.turn != 0)
         throw InputError(fmt::format(
@@ -175,13 +180,12 @@ void RunQueue::resume(const Json& wish) {
     Json options = before["options"];
     options.update(optionsOf(wish));
     const std::string driver = before["driver"];
-    std::vector<std::string> words = withFolder(drivers.commandLine(driver, options), *run->folder);
-    words.emplace_back("--resume");
+    std::vector<std::string> words = drivers.commandLine(driver, options);
+    words.insert(words.end(), {ownFolder, "--resume"});
     const std::scoped_lock one(mutex);
     if (waits(id)) throw InputError("This run waits in the queue already.");
     if (computes(id)) throw InputError("This run is under way.");
-    if (queue.size() >= mostWaiting)
-        throw InputError(fmt::format("{} runs wait already; that is the most.", queue.size()));
+    refuseMore();
     Descriptor turn = lockTurn(*run->folder);
     {
         const StartLocks free(*run);
@@ -220,7 +224,7 @@ pid_t RunQueue::begin(const Job& job, const fs::path& program) {
             log = lockLog(folder);
             writeStart(folder, job.driver, job.options);
         }
-        return startProcess(program, job.arguments, log);
+        return startProcess(program, job.arguments, folder.descriptor(), log);
     } catch (const InputError&) {
         if (isFirst) folder.remove(logFile);  // a run without one was never started
         throw;

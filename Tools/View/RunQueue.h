@@ -64,6 +64,7 @@ private:
     [[nodiscard]] std::string freeFolder(const std::string& driver, const std::string& wished) const;
     [[nodiscard]] bool waits(const std::string& id) const;
     [[nodiscard]] bool computes(const std::string& id) const;
+    void refuseMore() const;
     void add(Job job);
     void startAll();
     void startNext();

@@ -12,6 +12,7 @@
 #include <set>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Files/TextFile.h"
@@ -66,6 +67,11 @@ struct State {
     std::string word, reason;
     bool isPreparation = false;
     std::optional<OpenSummary> summary{};
+    bool isResumed = false;  // it computes, and its summary is still that of its part before
+
+    [[nodiscard]] std::vector<std::string> complaints() const {
+        return summary && !isResumed ? summary->content.complaints() : std::vector<std::string>();
+    }
 };
 
 /// What a run has said of its end in its summary; empty: nothing.
@@ -102,7 +108,8 @@ State stateOf(const RunFiles& run, const Locks& locks) {
     else describeSilence(state, run);
     if (state.word == "waiting")
         state.reason = fmt::format("it waits in the queue of another server (process {})", by.turn);
-    else if (state.word == "running" || state.word == "preparing") state.reason.clear();
+    state.isResumed = !said.empty() && (state.word == "running" || state.word == "preparing");
+    if (state.isResumed) state.reason.clear();
     return state;
 }
 
@@ -152,7 +159,7 @@ Json overviewOf(const RunFiles& run, const State& state) {
         {"time", numberOf(state.summary, "time")},
         {"endTime", numberOf(state.summary, "end time")},
         {"grains", numberOf(state.summary, "grains")},
-        {"healthy", state.summary ? Json(state.summary->content.complaints().empty()) : Json(nullptr)},
+        {"healthy", state.summary && !state.isResumed ? Json(state.complaints().empty()) : Json(nullptr)},
         {"bytes", nullptr},
         {"changed", run.folder->changed(state.isPreparation ? RunFiles::preparationFile(SummaryFile::ending)
                                                             : run.file(SummaryFile::ending))}};
@@ -242,7 +249,7 @@ Json details(const RunFiles& run) {
         const SummaryFile& summary = state.summary->content;
         for (const SummaryFile::Row& row : summary.rows())
             all["rows"].push_back({row.quantity, row.value, row.unit});
-        all["complaints"] = summary.complaints();
+        all["complaints"] = state.complaints();
         all["remark"] = summary.remark();
     }
     try {

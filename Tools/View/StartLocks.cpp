@@ -1,8 +1,10 @@
 #include "Tools/View/StartLocks.h"
 
 #include <sys/file.h>
+#include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 
 namespace pendular::view {
 
@@ -75,6 +77,22 @@ LockedBy::LockedBy(const RunFiles& files, const Locks& locks) {
     if (files.name == "run") preparation = locks.holderOf(in, RunFiles::preparationFile(lockEnding));
     run = locks.holderOf(in, files.file(lockEnding));
     turn = locks.holderOf(in, startFile), log = locks.holderOf(in, logFile);
+}
+
+pid_t startedIn(const OpenFolder& folder) {
+    const auto log = folder.status(logFile);
+    if (!log) return 0;
+    std::error_code problem;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc", problem)) {
+        const pid_t process = std::atoi(entry.path().filename().c_str());
+        struct stat output {};
+        // It leads its process group (Process.cpp), those that it has started itself do not.
+        if (process > 1 && getpgid(process) == process &&
+            stat((entry.path() / "fd/1").c_str(), &output) == 0 && output.st_ino == log->st_ino &&
+            output.st_dev == log->st_dev)
+            return process;
+    }
+    return 0;
 }
 
 pid_t LockedBy::driver() const {

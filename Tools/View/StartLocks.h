@@ -43,4 +43,8 @@ struct LockedBy {
     [[nodiscard]] bool isLive() const { return driver() != 0 || log != 0; }
 };
 
+/// The process that a server has started, by what it prints into, while it may have no lock of its own yet;
+/// 0: none that this user can see.
+[[nodiscard]] pid_t startedIn(const OpenFolder& folder);
+
 }  // namespace pendular::view

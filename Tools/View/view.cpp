@@ -154,6 +154,7 @@ int run(const Options& o) {
     sigset_t ends;
     sigemptyset(&ends), sigaddset(&ends, SIGINT), sigaddset(&ends, SIGTERM);
     pthread_sigmask(SIG_BLOCK, &ends, nullptr);
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told in a sentence, as a full disk is
     const RunFolder runs(o.folder);
     std::set<std::string> hosts{"localhost", "127.0.0.1", "[::1]", o.listen};
     hosts.insert(o.hosts.begin(), o.hosts.end());

@@ -38,6 +38,11 @@ def _place(run: Union[Path, "_kernel.Scene"]) -> Tuple[str, str]:
     return os.path.realpath(folder), run_name
 
 
+def _text_of(name: str) -> str:
+    """As the server writes the name of a run: what is no UTF-8 is "%E9", and "%" is "%25" (Tools/View/NameText.h)."""
+    return re.sub("[\udc80-\udcff]", lambda byte: f"%{ord(byte[0]) - 0xdc00:02X}", name.replace("%", "%25"))
+
+
 def _start(folder: str, frame_of: str) -> Tuple["subprocess.Popen[str]", str]:
     """It ends with this process: then nothing more can come from its input."""
     server = subprocess.Popen([*_command(), folder, "--end-with-input", "--frame-of", frame_of], stdin=subprocess.PIPE,
@@ -69,7 +74,7 @@ def view(run: Union[Path, "_kernel.Scene"] = ".", *, height: int = 700, frame_of
     server = _servers.get((folder, frame_of))
     if server is None or server[0].poll() is not None:
         server = _servers[folder, frame_of] = _start(folder, frame_of)
-    address = server[1] + (f"&run={quote(name, safe='')}" if name else "")
+    address = server[1] + (f"&run={quote(_text_of(name), safe='')}" if name else "")
     if not _is_notebook():
         print(address)
         return None
