@@ -95,19 +95,19 @@ bool isPath(const CLI::Option& option) { return kindOf(option) == fileName || ki
 /// one of them allows (checkRun(), the laws' fields). A NumberOption has its own.
 std::map<std::string, Range> usualRanges() {
     std::map<std::string, Range> ranges{
-        {"--threads", {1, 4096}},         {"--number", {1, 1e8}},
-        {"--poisson-ratio", {-1, 0.5}},   {"--plate-poisson-ratio", {-1, 0.5}},
-        {"--restitution", {0, 1}},        {"--interval-s", positive},
-        {"--contact-angle-deg", {0, 180}}};
+        {"--threads", {1, 4096}},          {"--number", {1, 1e8}},
+        {"--poisson-ratio", {-1, 0.5}},    {"--plate-poisson-ratio", {-1, 0.5}},
+        {"--restitution", {0, 1}},         {"--interval-s", positive},
+        {"--contact-angle-deg", {0, 180}}, {"--cone-deg", {0, 80}}};
     for (const char* interval : {"restart", "paraview", "hdf5", "energy", "wall-force"})
         ranges[fmt::format("--{}-interval-s", interval)] = notNegative;
     for (const char* name :
          {"end-time-s", "time-max-s", "time-step-s", "begin-s", "friction", "volume-m3",
           "surface-tension-N/m", "viscosity-Pa-s", "layer-m", "roughness-m", "advise-within-percent"})
         ranges[fmt::format("--{}", name)] = notNegative;
-    for (const char* name : {"softening", "radius-m", "radius1-m", "radius2-m", "orifice-m",
-                             "hopper-diameter-m", "grain-diameter-m", "density-kg/m3", "liquid-density-kg/m3",
-                             "elastic-modulus-Pa", "plate-elastic-modulus-Pa"})
+    for (const char* name : {"softening", "speed-m/s", "speeds-m/s", "radius-m", "radius1-m", "radius2-m",
+                             "orifice-m", "hopper-diameter-m", "grain-diameter-m", "density-kg/m3",
+                             "liquid-density-kg/m3", "elastic-modulus-Pa", "plate-elastic-modulus-Pa"})
         ranges[fmt::format("--{}", name)] = positive;
     return ranges;
 }

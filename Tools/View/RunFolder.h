@@ -28,10 +28,10 @@ struct RunFiles {
     std::string name;  // "run"
 
     /// The name of a file of the run.
-    [[nodiscard]] std::string file(std::string_view ending) const { return name + std::string(ending); }
+    [[nodiscard]] std::string file(std::string_view ending) const { return std::string(name).append(ending); }
     /// Of the run that makes its first grains.
     [[nodiscard]] static std::string preparationFile(std::string_view ending) {
-        return "preparation" + std::string(ending);
+        return std::string("preparation").append(ending);
     }
 };
 

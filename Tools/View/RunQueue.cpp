@@ -186,7 +186,7 @@ void RunQueue::resume(const Json& wish) {
     if (waits(id)) throw InputError("This run waits in the queue already.");
     if (computes(id)) throw InputError("This run is under way.");
     refuseMore();
-    Descriptor turn = lockTurn(*run->folder);
+    HeldLock turn = lockTurn(*run->folder);
     {
         const StartLocks free(*run);
         if (run->folder->hasFile(logFile)) static_cast<void>(lockLog(*run->folder));
@@ -218,13 +218,15 @@ pid_t RunQueue::begin(const Job& job, const fs::path& program) {
     const OpenFolder& folder = *job.run.folder;
     const bool isFirst = !folder.hasFile(logFile);
     try {
-        Descriptor log;
+        HeldLock log;
         {
             const StartLocks alone(job.run);
             log = lockLog(folder);
             writeStart(folder, job.driver, job.options);
         }
-        return startProcess(program, job.arguments, folder.descriptor(), log);
+        const pid_t process = startProcess(program, job.arguments, folder.descriptor(), log.file());
+        log.leave();
+        return process;
     } catch (const InputError&) {
         if (isFirst) folder.remove(logFile);  // a run without one was never started
         throw;
@@ -236,7 +238,7 @@ void RunQueue::startNext() {
     queue.pop_front();
     try {
         const pid_t process = begin(job, drivers.program(job.driver));
-        job.turn = Descriptor();
+        job.turn = HeldLock();
         running.emplace(process, std::move(job));
     } catch (const InputError& problem) {
         outcomes[job.run.id] = {"failed", problem.what(), now()};

@@ -58,7 +58,7 @@ private:
         std::string driver;
         Json options;
         std::vector<std::string> arguments;
-        Descriptor turn;  // lockTurn()
+        HeldLock turn;  // lockTurn()
     };
     /// The name of a folder that there is not yet. Throws InputError.
     [[nodiscard]] std::string freeFolder(const std::string& driver, const std::string& wished) const;

@@ -22,12 +22,13 @@ int lock(const Descriptor& file) {
 std::string processOf(pid_t process) { return process > 0 ? fmt::format(" (process {})", process) : ""; }
 
 /// Where another has the lock, says so. Where the file system knows no locks, there is none.
-Descriptor lockFile(const OpenFolder& folder, const std::string& name, std::string_view whatIfTaken) {
+HeldLock lockFile(const OpenFolder& folder, const std::string& name, std::string_view whatIfTaken) {
     for (int tries = 0; tries < 100; ++tries) {
         Descriptor file = folder.append(name);
         if (lock(file) == EWOULDBLOCK)
             throw InputError(fmt::format("{}{}.", whatIfTaken, processOf(Locks().holderOf(folder, name))));
-        if (folder.isAt(name, file)) return file;  // else another has replaced it meanwhile
+        if (folder.isAt(name, file))
+            return HeldLock(std::move(file));  // else another has replaced it meanwhile
     }
     folder.refuse(name, "is replaced again and again");
 }
@@ -62,12 +63,16 @@ StartLocks::StartLocks(const RunFiles& run) {
     });
 }
 
-Descriptor lockTurn(const OpenFolder& folder) {
+HeldLock::~HeldLock() {
+    if (open.isOpen()) flock(open.get(), LOCK_UN);
+}
+
+HeldLock lockTurn(const OpenFolder& folder) {
     return lockFile(folder, startFile,
                     "This run, or another one in its folder, waits in the queue of a server");
 }
 
-Descriptor lockLog(const OpenFolder& folder) {
+HeldLock lockLog(const OpenFolder& folder) {
     return lockFile(folder, logFile, "This run is under way; it was started by a server");
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "Kernel/Files/FileLock.h"
 #include "Tools/View/RunFolder.h"
@@ -22,15 +23,33 @@ private:
     std::optional<FileLock> folder, preparation, own;
 };
 
+/// The lock of a file, for as long as this lives, also where a copy of the process (fork) has the file open
+/// too.
+class HeldLock {
+public:
+    HeldLock() = default;
+    explicit HeldLock(Descriptor locked) : open(std::move(locked)) {}
+    HeldLock(HeldLock&&) = default;
+    HeldLock& operator=(HeldLock&&) = default;
+    ~HeldLock();
+
+    [[nodiscard]] const Descriptor& file() const { return open; }
+    /// From here on it is that of a process that was given the file.
+    void leave() { open = Descriptor(); }
+
+private:
+    Descriptor open;
+};
+
 /// Of a run that is started from the page, a server keeps two locks besides, so that another server does not
 /// start it too. Both are gone when their processes are, however those end.
 
 /// Of the file view-start.json, while the run waits in the queue of a server. Throws InputError where
 /// another server has it.
-[[nodiscard]] Descriptor lockTurn(const OpenFolder& folder);
+[[nodiscard]] HeldLock lockTurn(const OpenFolder& folder);
 /// Of the file that gets what the run prints, as its process has it: from before it is started until its
 /// end, also after that of the server. Makes the file. Throws InputError where another process has it.
-[[nodiscard]] Descriptor lockLog(const OpenFolder& folder);
+[[nodiscard]] HeldLock lockLog(const OpenFolder& folder);
 
 /// Of a run as the locks tell it.
 struct LockedBy {
