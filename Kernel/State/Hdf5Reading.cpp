@@ -116,8 +116,8 @@ void Hdf5Reading::requireTaken(const Answer& answer, bool received) {
     if (received && !answer.isRefused) return;
     if (received) throw InputError(contentOf(answer));
     throw InputError(fmt::format(
-        "The file {} is damaged: the HDF5 library cannot read it (the process in which it did {}); "
-        "take another one.",
+        "The file {} cannot be read: the process that read it with the HDF5 library {}; the file is "
+        "damaged, or of a form that Pendular does not write.",
         place.string(), process.howItEnded()));
 }
 
