@@ -54,7 +54,7 @@ python3-dev||headers of Python
 pybind11-dev||the Python module
 python3-numpy||arrays
 python3-pytest||tests of the module
-python3-h5py||h5py, for pendular.frames()
+python3-h5py||h5py, which reads HDF5 files
 python3-pandas||tables, for pendular.table()
 python3-matplotlib||pictures, for pendular.draw()
 python3-scipy||the calibration among the examples

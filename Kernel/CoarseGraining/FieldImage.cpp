@@ -42,6 +42,7 @@ public:
     ImageReader(std::string_view text, const std::string& field) : arrays(text), wanted(field) {
         for (const vtk::Tag& tag : arrays.tags) take(tag);
         if (!hasGrid) throw std::runtime_error("is no image");
+        if (!image.field.name.empty()) makePlaces();
     }
 
     FieldImage image;
@@ -58,7 +59,6 @@ private:
         const auto extent = wordsIn<long long>(tag, "WholeExtent", 6);
         const auto origin = wordsIn<double>(tag, "Origin", 3), spacing = wordsIn<double>(tag, "Spacing", 3);
         count = 1;
-        std::array<std::size_t, 3> counts{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const long long last = extent[2 * axis + 1];
             if (extent[2 * axis] != 0 || last < 0 || last >= static_cast<long long>(mostPoints) ||
@@ -68,14 +68,15 @@ private:
             count *= counts[axis];
             requireFew(count);
         }
-        arrays.requireRoom(count * sizeof(float));  // before places are made
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            image.places[axis].clear();
-            for (std::size_t k = 0; k < counts[axis]; ++k)
-                image.places[axis].push_back(origin[axis] + static_cast<double>(k) * spacing[axis]);
-        }
-        image.strides = {1, image.places[0].size(), image.places[0].size() * image.places[1].size()};
+        image.strides = {1, counts[0], counts[0] * counts[1]};
+        lowest = {origin[0], origin[1], origin[2]}, distance = {spacing[0], spacing[1], spacing[2]};
         hasGrid = true;
+    }
+    /// Once the field has shown that there are as many points as the extent claims.
+    void makePlaces() {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            for (std::size_t k = 0; k < counts[axis]; ++k)
+                image.places[axis].push_back(lowest[axis] + static_cast<double>(k) * distance[axis]);
     }
     void takeArray(const vtk::Tag& tag) {
         const std::string_view name = vtk::valueOf(tag, "Name");
@@ -92,6 +93,8 @@ private:
     std::string wanted;
     std::string_view section;
     std::size_t count = 0;
+    std::array<std::size_t, 3> counts{};
+    std::array<double, 3> lowest{}, distance{};  // m
     bool hasGrid = false;
 };
 

@@ -169,13 +169,19 @@ std::string decompressBlocks(std::string_view data, std::size_t size) {
     if (count > most || (count > 0 && (whole == 0 || whole > size + blockSize || last >= whole)) ||
         count * whole - (last > 0 ? whole - last : 0) != size)
         throw std::runtime_error("has data of the wrong size");
-    std::string out(size, '\0');
-    std::size_t from = (3 + count) * sizeof(std::uint64_t), to = 0;
-    for (std::size_t k = 0; k < count; ++k) {
+    // All of it is checked before memory is taken: a block must be there, and can hold what it is to.
+    const auto partOf = [&](std::size_t k) { return k + 1 == count && last > 0 ? last : whole; };
+    const std::size_t begin = (3 + count) * sizeof(std::uint64_t);
+    for (std::size_t k = 0, from = begin; k < count; ++k) {
         const std::size_t length = numberAt(3 + k);
-        uLongf part = k + 1 == count && last > 0 ? last : whole;
-        const std::size_t expected = part;
         if (from > data.size() || length > data.size() - from) throw std::runtime_error("ends too early");
+        if (partOf(k) / largestRatio > length) throw std::runtime_error("has data of the wrong size");
+        from += length;
+    }
+    std::string out(size, '\0');
+    for (std::size_t k = 0, from = begin, to = 0; k < count; ++k) {
+        const std::size_t length = numberAt(3 + k), expected = partOf(k);
+        uLongf part = expected;
         const int result = uncompress(reinterpret_cast<Bytef*>(out.data() + to), &part,
                                       reinterpret_cast<const Bytef*>(data.data() + from), length);
         if (result != Z_OK || part != expected) throw std::runtime_error("has a damaged block of data");

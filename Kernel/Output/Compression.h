@@ -8,6 +8,9 @@
 
 namespace pendular {
 
+/// The most bytes that deflate packs into one. Source: J. Gailly, M. Adler, "zlib technical details".
+inline constexpr std::size_t largestRatio = 1032;
+
 /// Bytes in the form of vtkZLibDataCompressor: the number of blocks, the size of a block, that of the last
 /// one if it is smaller (else 0), the compressed size of each (unsigned integers of 64 bits), and the blocks,
 /// each a stream of zlib. Source: the VTK file formats, "Compressed data".
@@ -23,7 +26,7 @@ std::vector<std::string> compressShuffled(std::span<const std::byte> bytes, std:
                                           std::size_t chunk, int threads = 1);
 
 /// The bytes again. Throws std::runtime_error, with the reason, unless the data begins with blocks that hold
-/// exactly `size` bytes.
+/// exactly `size` bytes. No memory is taken before the sizes that it claims are found possible.
 std::string decompressBlocks(std::string_view data, std::size_t size);
 
 }  // namespace pendular

@@ -127,9 +127,9 @@ public:
         return read;
     }
 
-    /// Throws unless the file can have so many bytes of numbers: deflate packs 1032 bytes into one at most.
+    /// Throws unless the file can have so many bytes of numbers.
     void requireRoom(std::size_t bytes) const {
-        if (bytes / 1032 > appended.size()) throw std::runtime_error("ends too early");
+        if (bytes / largestRatio > appended.size()) throw std::runtime_error("ends too early");
     }
 
 private:

@@ -12,10 +12,13 @@
 #ifdef PENDULAR_HAS_HDF5
     #include <algorithm>
     #include <array>
+    #include <map>
+    #include <memory>
     #include <mutex>
     #include <utility>
 
     #include "Kernel/State/Hdf5Library.h"
+    #include "Kernel/State/Hdf5Reading.h"
 #endif
 
 namespace pendular {
@@ -28,24 +31,49 @@ using hdf5::makeQuiet, hdf5::nativeType, hdf5::Object;
 
 namespace {
 
-/// The library is not made for several threads, and scenes of several may be read at the same time.
-std::recursive_mutex library;
-struct Alone : std::scoped_lock<std::recursive_mutex> {
-    using std::scoped_lock<std::recursive_mutex>::scoped_lock;
-    const hdf5::WithoutMessages messages;
+/// What this process does with the library, which is not made for several threads, while scenes of several
+/// may be read at the same time. Each file that is read has a child process, in which the functions below go
+/// to the library; in this process they go to the child. A child begins with a Use of its own: the lock of
+/// this process would stay held in it, and the children are not its own.
+struct Use {
+    std::recursive_mutex mutex;
+    std::map<const Hdf5File*, std::unique_ptr<Hdf5Reading>> readings;
 };
+Use* use = new Use;  // never deleted: files may be closed when the program ends
+
+Hdf5Reading* readingOf(const Hdf5File* file) {
+    const auto found = use->readings.find(file);
+    return found == use->readings.end() ? nullptr : found->second.get();
+}
+
+struct Alone {
+    const std::scoped_lock<std::recursive_mutex> lock{use->mutex};
+    const hdf5::WithoutMessages messages{};
+};
+
+/// The most bytes of numbers that a table can have by what is stored of it. Deflate packs 1032 bytes into
+/// one.
+double mostBytes(hid_t set, double stored, double fileSize) {
+    const Object creation(H5Dget_create_plist(set), H5Pclose);  // to ask takes longer than all the rest
+    if (H5Pget_layout(creation) != H5D_CHUNKED) return fileSize;
+    return (H5Pget_nfilters(creation) > 0 ? 1032 : 1) * std::min(stored, fileSize);
+}
 
 }  // namespace
 
 bool Hdf5File::isAvailable() { return true; }
 
 Hdf5File::Hdf5File(std::filesystem::path path, Access access) : place(std::move(path)) {
-    const Alone alone(library);
+    const Alone alone;
     makeQuiet();
     if (access == Access::Read) {
         requireRegularIfThere(place);
-        errno = 0;
-        file = check(H5Fopen(place.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "cannot be read");
+        const auto open = [this] {
+            use = new Use;
+            errno = 0;
+            file = check(H5Fopen(place.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "cannot be read");
+        };
+        use->readings[this] = std::make_unique<Hdf5Reading>(open, *this);
         return;
     }
     const Object creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
@@ -56,7 +84,8 @@ Hdf5File::Hdf5File(std::filesystem::path path, Access access) : place(std::move(
 }
 
 Hdf5File::~Hdf5File() {
-    const Alone alone(library);
+    const Alone alone;
+    use->readings.erase(this);
     closeDataset();
     if (file >= 0) H5Fclose(file);
 }
@@ -85,14 +114,14 @@ void Hdf5File::writeDataset(const std::string& name, Id type, Id space, const vo
 }
 
 void Hdf5File::write(const std::string& name, const TableShape& shape, const void* numbers) {
-    const Alone alone(library);
+    const Alone alone;
     const std::array<hsize_t, 2> extent{shape.rows, shape.columns};
     const Object space(H5Screate_simple(2, extent.data(), nullptr), H5Sclose);
     writeDataset(name, nativeType(shape.kind), space, shape.rows > 0 ? numbers : nullptr);
 }
 
 void Hdf5File::write(const std::string& name, std::string_view text) {
-    const Alone alone(library);
+    const Alone alone;
     const std::string ended(text);  // HDF5 knows no empty fixed string: the terminator is part of it
     const Object type(H5Tcopy(H5T_C_S1), H5Tclose);
     H5Tset_size(type, ended.size() + 1);
@@ -101,7 +130,8 @@ void Hdf5File::write(const std::string& name, std::string_view text) {
 }
 
 std::vector<std::string> Hdf5File::names() const {
-    const Alone alone(library);
+    const Alone alone;
+    if (Hdf5Reading* const reading = readingOf(this)) return reading->names();
     std::vector<std::string> found;
     const auto take = [](hid_t, const char* name, const hdf5::ObjectInfo* info, void* list) -> herr_t {
         if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(list)->emplace_back(name);
@@ -131,7 +161,8 @@ bool Hdf5File::isOwn(const std::string& name) const {
 }
 
 bool Hdf5File::holds(const std::string& name) const {
-    const Alone alone(library);
+    const Alone alone;
+    if (Hdf5Reading* const reading = readingOf(this)) return reading->holds(name);
     const std::size_t last = name.rfind('/');
     if (last != std::string::npos && !isOwn(name.substr(0, last))) return false;
     return own.contains(name) || H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0;
@@ -159,20 +190,20 @@ Hdf5File::Id Hdf5File::openDataset(const std::string& name) const {
 }
 
 std::optional<TableShape> Hdf5File::shapeOf(const std::string& name) const {
-    const Alone alone(library);
+    const Alone alone;
+    if (Hdf5Reading* const reading = readingOf(this)) return reading->shapeOf(name);
     const Id set = openDataset(name);
     const Object type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
     std::array<hsize_t, 2> extent{0, 1};
     if (const int axes = H5Sget_simple_extent_ndims(space); axes != 1 && axes != 2) return {};
     H5Sget_simple_extent_dims(space, extent.data(), nullptr);
-    // Nothing is believed of a table that promises more than there is. Deflate packs 1032 bytes into one.
-    const double promised = static_cast<double>(extent[0]) * static_cast<double>(extent[1]) *
+    // Nothing is believed of a table that promises more than there is, also where its rows are to be empty.
+    const double promised = static_cast<double>(extent[0]) *
+                            static_cast<double>(std::max<hsize_t>(extent[1], 1)) *
                             static_cast<double>(H5Tget_size(type)),
-                 there = static_cast<double>(sizeOf(place));
-    const auto isPacked = [&] {  // to ask takes longer than all the rest
-        return H5Pget_nfilters(Object(H5Dget_create_plist(set), H5Pclose)) > 0;
-    };
-    if (promised > there && (promised > 1032 * there || !isPacked()))
+                 stored = static_cast<double>(H5Dget_storage_size(set)),
+                 fileSize = static_cast<double>(sizeOf(place));
+    if (promised > std::min(stored, fileSize) && promised > mostBytes(set, stored, fileSize))
         fail(fmt::format("has fewer bytes than {} is to have numbers", name));
     for (const NumberKind kind :
          {NumberKind::Float64, NumberKind::Float32, NumberKind::UInt64, NumberKind::UInt32, NumberKind::Int32,
@@ -185,7 +216,8 @@ std::optional<TableShape> Hdf5File::shapeOf(const std::string& name) const {
 }
 
 void Hdf5File::read(const std::string& name, const TableShape& shape, void* numbers) const {
-    const Alone alone(library);
+    const Alone alone;
+    if (Hdf5Reading* const reading = readingOf(this)) return reading->read(name, shape, numbers);
     const Id set = openDataset(name);
     if (shape.rows > 0)
         check(H5Dread(set, nativeType(shape.kind), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers),
@@ -193,7 +225,8 @@ void Hdf5File::read(const std::string& name, const TableShape& shape, void* numb
 }
 
 std::string Hdf5File::readText(const std::string& name) const {
-    const Alone alone(library);
+    const Alone alone;
+    if (Hdf5Reading* const reading = readingOf(this)) return reading->readText(name);
     const Id set = openDataset(name);
     const Object type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
     constexpr std::size_t longest = std::size_t{1} << 20;  // bytes
@@ -207,7 +240,7 @@ std::string Hdf5File::readText(const std::string& name) const {
 }
 
 void Hdf5File::close() {
-    const Alone alone(library);
+    const Alone alone;
     closeDataset();
     errno = 0;
     check(H5Fclose(std::exchange(file, -1)), "cannot be completed");

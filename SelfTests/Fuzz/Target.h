@@ -34,8 +34,10 @@ Target fieldImage();
 Target summaryTable();
 Target hdf5Index();
 Target hdf5Frame();
+Target hdf5Bytes();
 Target restartFile();
 Target restartContent();
+Target restartBytes();
 #ifdef PENDULAR_HAS_VIEW
 Target request();
 #endif
@@ -45,9 +47,9 @@ inline std::vector<Target> allTargets() {
 #ifdef PENDULAR_HAS_VIEW
         request(),
 #endif
-        grainFile(), lammpsFile(), triangleRows(),   stlFile(),       objFile(),
-        plyFile(),   polyData(),   paraViewSeries(), fieldImage(),    summaryTable(),
-        hdf5Index(), hdf5Frame(),  restartFile(),    restartContent()};
+        grainFile(), lammpsFile(),     triangleRows(),   stlFile(),      objFile(),   plyFile(),
+        polyData(),  paraViewSeries(), fieldImage(),     summaryTable(), hdf5Index(), hdf5Frame(),
+        hdf5Bytes(), restartFile(),    restartContent(), restartBytes()};
 }
 
 inline void writeBytes(const std::filesystem::path& path, std::string_view bytes) {

@@ -33,7 +33,6 @@ def test_collision():
 
 
 def test_restart(tmp_path):
-    pytest.importorskip("h5py")
     words = run("restart.py", "--output", tmp_path).splitlines()[0].split()
     assert words[1] == words[3]
 

@@ -63,7 +63,6 @@ def test_insertions_try_as_often_as_they_are_told():
 
 
 def test_files_have_contact_points():
-    pytest.importorskip("h5py")
     scene = tower("run")
     scene.set_position([0, 0, 0.999e-3], identities=[0])
     scene.write_hdf5(1e-3, doubles=True, contact_points=True)
@@ -74,7 +73,6 @@ def test_files_have_contact_points():
 
 
 def test_fields_of_each_species_in_files():
-    pytest.importorskip("h5py")
     scene = tower("run")
     heavy = glass_in(scene)
     scene.add_grains(heavy, [[0.01, 0, 0.01]], 1e-3)

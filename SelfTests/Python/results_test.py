@@ -1,4 +1,5 @@
 """What runs have written is read as the arrays of a scene are."""
+import os
 import sys
 import types
 
@@ -7,8 +8,6 @@ import pytest
 
 import pendular
 from conftest import tower
-
-h5py = pytest.importorskip("h5py")
 
 
 def test_frames_are_those_of_the_scene():
@@ -78,6 +77,31 @@ def test_restart_file_as_tables():
     tables = pendular.restart("state.h5")
     assert np.array_equal(tables["particles/translation"][:, :3], scene.position)
     assert tables["steps"].item() == 3
+
+
+def test_damaged_files_are_refused():
+    """The HDF5 library crashes on some of them, and would take the interpreter with it: it reads in a process of its own."""
+    scene = tower("run")
+    scene.write_hdf5(1e-3)
+    scene.run(2e-3)
+    scene.finish()
+    scene.write_restart("state.h5")
+    for name, read in (("state.h5", pendular.restart), ("run-fields.h5", lambda f: list(pendular.frames(f)))):
+        with open(name, "rb") as file:
+            good = file.read()
+        assert read(name)
+        for bad in (b"", good[:700], good.replace(b"TREE", b"tree"), good.replace(b"SNOD", b"snod")):
+            with open(name, "wb") as file:
+                file.write(bad)
+            with pytest.raises(pendular.InputError, match=name) as caught:
+                read(name)
+            assert "\n" not in str(caught.value)
+        with open(name, "wb") as file:
+            file.write(good)
+    frame = sorted(name for name in os.listdir(".") if name.startswith("run-fields-"))[0]
+    os.remove(frame)
+    with pytest.raises(pendular.InputError, match=f"There is no file {frame}"):
+        list(pendular.frames("run-fields.h5"))
 
 
 def test_picture():

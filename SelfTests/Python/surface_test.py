@@ -160,7 +160,6 @@ def test_held_axes():
 
 def test_fields_of_functions():
     """Each frame has what the function gives at its time, row by row, also where grains come and go."""
-    pytest.importorskip("h5py")
     scene, seen = tower("run"), []
 
     def height(s):
@@ -186,7 +185,6 @@ def test_fields_of_functions():
 @pytest.mark.parametrize("options", [{"fields": {"a_m": lambda s: [1, 2]}}, {"vectors": {"a_m": lambda s: s.radius}},
                                      {"fields": {"a_m": lambda s: "text"}}])
 def test_fields_of_other_shapes(options):
-    pytest.importorskip("h5py")
     scene = tower("run")
     with pytest.raises((pendular.InputError, pendular.RunError), match="field a_m must return .* each of 4 grains"):
         scene.write_hdf5(1e-3, **options)

@@ -36,5 +36,6 @@ void bindBonds(SceneClass& scene);
 void bindHeat(SceneClass& scene);
 void bindFluid(py::module_& module, SceneClass& scene);
 void bindSoftness(py::module_& module, SceneClass& scene);
+void bindResults(py::module_& module);
 
 }  // namespace pendular::python

@@ -188,6 +188,7 @@ PYBIND11_MODULE(_kernel, module) {
     bindHeat(scene);
     bindFluid(module, scene);
     bindSoftness(module, scene);
+    bindResults(module);
 
     module.def("load_species", &loadSpecies, py::arg("library"), comment("loadSpeciesLibrary"));
     module.def(

@@ -8,14 +8,14 @@
 #include <sstream>
 #include <utility>
 
-#include "Kernel/Base/FullStop.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Files/FileContent.h"
-#include "Kernel/Files/FileFault.h"
 #include "Kernel/Files/TextFile.h"
 #include "Tools/View/FieldMaps.h"
 #include "Tools/View/FramePack.h"
 #include "Tools/View/NameText.h"
+#include "Tools/View/ReadApart.h"
+#include "Tools/View/ReadJson.h"
 #include "Tools/View/RunState.h"
 
 namespace pendular::view {
@@ -72,16 +72,10 @@ void secure(Reply& reply, const std::string& frameAncestors) {
 }  // namespace
 
 Reply Api::answer(const Request& request) {
-    Reply reply;
-    try {
+    Reply reply = replyOf([&] {
         const auto refused = gate.answer(request);
-        reply = refused ? *refused : route(request);
-    } catch (const InputError& problem) {
-        reply = sentence(400, problem.what());
-    } catch (const std::exception& problem) {
-        reply = sentence(
-            500, fmt::format("The server has met a fault: {}.", withoutFullStop(sentenceOf(problem))));
-    }
+        return refused ? *refused : route(request);
+    });
     secure(reply, places.frameAncestors);
     return reply;
 }
@@ -98,8 +92,9 @@ Reply Api::route(const Request& request) {
 }
 
 Reply Api::change(const Request& request) {
-    const Json wish = Json::parse(request.body, nullptr, false);
-    if (!wish.is_object()) return sentence(400, "The content is no JSON object.");
+    const Json wish = parseJson(request.body);
+    if (!wish.is_object())
+        return sentence(400, "The content is no JSON object, or has too many lists in each other.");
     if (request.path == "/api/start") return json({{"id", queue.start(wish)}});
     if (request.path == "/api/check") return queue.check(wish), json({{"told", "It can start."}});
     if (request.path == "/api/resume") return queue.resume(wish), json({{"told", "It goes on."}});
@@ -113,10 +108,19 @@ Reply Api::change(const Request& request) {
 
 Reply Api::ofRun(const Request& request, const RunFiles& run) {
     if (request.path == "/api/run") {
-        Json all = details(run);
+        const Reply read = readApart(places.memory, [&] { return json(details(run)); });
+        if (read.status != 200) return read;
+        Json all = Json::parse(read.body);
+        addSize(all, run);
         addQueue(all, run);
         return json(all);
     }
+    std::unique_lock<std::mutex> one(oneFrame, std::defer_lock);
+    if (request.path != "/api/table") one.lock();  // here, and not in the child, which has a copy of the lock
+    return readApart(places.memory, [&] { return contentOf(request, run); });
+}
+
+Reply Api::contentOf(const Request& request, const RunFiles& run) {
     if (request.path == "/api/table") {
         const std::string from = request.asked("from");
         return {200, "application/json",
@@ -131,7 +135,6 @@ Reply Api::frame(const Request& request, const RunFiles& run) {
     const std::vector<FrameEntry> frames = framesOf(run);
     const std::size_t number = wholeOf(request, "frame");
     if (number >= frames.size()) return sentence(404, "There is no such frame.");
-    const std::scoped_lock one(oneFrame);
     if (request.path == "/api/row")
         return {200, "application/json",
                 describeRow(frames[number], request.asked("of") == "contacts", wholeOf(request, "row"))};
@@ -151,7 +154,6 @@ Reply Api::map(const Request& request, const RunFiles& run) {
     const auto optional = [&](const char* word) {
         return request.asked(word).empty() ? std::optional<std::size_t>() : wholeOf(request, word);
     };
-    const std::scoped_lock one(oneFrame);
     return {200, "application/octet-stream",
             packMap(found->entries[number], {request.asked("field"), optional("normal"), optional("slice")})};
 }
@@ -173,12 +175,14 @@ void Api::addQueue(Json& overview, const RunFiles& run) {
 
 Reply Api::list() {
     std::vector<Json> all;
-    const Locks locks;
-    for (const std::string& id : runs.list()) {
-        const auto run = runs.find(id);  // of a thousand, one folder is open at a time
+    for (const std::string& text : overviewsApart(places.memory, runs, runs.list())) {
+        if (text.empty()) continue;
+        Json one = Json::parse(text);
+        const auto run = runs.find(one["id"]);  // of a thousand, one folder is open at a time
         if (!run) continue;
-        all.push_back(overview(*run, locks));
-        addQueue(all.back(), *run);
+        addSize(one, *run);
+        addQueue(one, *run);
+        all.push_back(std::move(one));
     }
     std::stable_sort(all.begin(), all.end(), [](const Json& a, const Json& b) {
         return a["changed"].get<double>() > b["changed"].get<double>();

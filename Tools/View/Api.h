@@ -29,6 +29,7 @@ public:
         std::filesystem::path drivers;  // of programs: see DriverOptions
         std::vector<std::string> driverNames;
         std::string frameAncestors;  // of the content policy: who may show the page in a frame
+        std::size_t memory = std::size_t{2000} << 20;  // bytes, for reading the files of a run
     };
 
     Api(Gate guard, const RunFolder& runFolder, Places where, std::size_t runsAtOnce)
@@ -48,8 +49,11 @@ private:
     [[nodiscard]] Reply route(const Request& request);
     [[nodiscard]] Reply change(const Request& request);
     [[nodiscard]] Reply ofRun(const Request& request, const RunFiles& run);
-    [[nodiscard]] Reply frame(const Request& request, const RunFiles& run);
-    [[nodiscard]] Reply map(const Request& request, const RunFiles& run);
+    // In a child process:
+    [[nodiscard]] static Reply contentOf(const Request& request, const RunFiles& run);
+    [[nodiscard]] static Reply frame(const Request& request, const RunFiles& run);
+    [[nodiscard]] static Reply map(const Request& request, const RunFiles& run);
+
     [[nodiscard]] Reply list();
     [[nodiscard]] Reply pageFile(const std::string& path) const;
     void addQueue(DriverOptions::Json& overview, const RunFiles& run);

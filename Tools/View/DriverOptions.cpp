@@ -12,6 +12,7 @@
 #include "Kernel/Files/TextFile.h"
 #include "Kernel/Species/Field.h"
 #include "Tools/View/Process.h"
+#include "Tools/View/ReadJson.h"
 
 namespace pendular::view {
 
@@ -127,7 +128,7 @@ const Json& DriverOptions::describe(const std::string& driver) {
     if (found != end && found->second.written == written &&
         (!found->second.description.is_null() || now - found->second.asked < pause))
         return found->second.description;
-    const Json told = Json::parse(outputOf(path, {"--describe-options"}), nullptr, false);
+    const Json told = parseJson(outputOf(path, {"--describe-options"}));
     const bool isWhole = told.is_object() && told.contains("options") && told["options"].is_array();
     return (known[driver] = {written, std::chrono::steady_clock::now(), isWhole ? told : Json(nullptr)})
         .description;

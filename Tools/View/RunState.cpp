@@ -20,6 +20,7 @@
 #include "Tools/View/FieldMaps.h"
 #include "Tools/View/FramePack.h"
 #include "Tools/View/NameText.h"
+#include "Tools/View/ReadJson.h"
 #include "Tools/View/StartLocks.h"
 
 namespace pendular::view {
@@ -148,11 +149,6 @@ private:
     std::map<fs::path, Known> all;
 };
 
-std::uintmax_t bytesOf(const RunFiles& run, bool isWritten) {
-    static FolderSizes sizes;
-    return sizes.of(*run.folder, isWritten);
-}
-
 Json overviewOf(const RunFiles& run, const State& state) {
     const Json start = startOf(run);
     return {
@@ -164,7 +160,7 @@ Json overviewOf(const RunFiles& run, const State& state) {
         {"endTime", numberOf(state.summary, "end time")},
         {"grains", numberOf(state.summary, "grains")},
         {"healthy", state.summary && !state.isResumed ? Json(state.complaints().empty()) : Json(nullptr)},
-        {"bytes", bytesOf(run, state.word == "running" || state.word == "preparing")},
+        {"bytes", nullptr},
         {"changed", run.folder->changed(state.isPreparation ? RunFiles::preparationFile(SummaryFile::ending)
                                                             : run.file(SummaryFile::ending))}};
 }
@@ -223,7 +219,7 @@ Json cellsOf(const std::string& line) {
 Json startOf(const RunFiles& run) {
     const auto file = run.folder->file(startFile);
     if (!file) return nullptr;
-    const Json start = Json::parse(file->bytes(0, mostTableBytes), nullptr, false);
+    const Json start = parseJson(file->bytes(0, mostTableBytes));
     const bool isWhole = start.is_object() && start.contains("driver") && start["driver"].is_string() &&
                          start.contains("options") && start["options"].is_object();
     return isWhole ? start : Json(nullptr);
@@ -235,6 +231,12 @@ std::string errorOf(const RunFiles& run) {
     for (std::string line; std::getline(lines, line);)
         if (line.starts_with("Error: ") || line.ends_with("; see --help")) found = line;
     return found.empty() ? "it ended with an error, and has not said which" : found;
+}
+
+void addSize(Json& overview, const RunFiles& run) {
+    static FolderSizes sizes;
+    const std::string state = overview["state"];
+    overview["bytes"] = sizes.of(*run.folder, state == "running" || state == "preparing");
 }
 
 Json overview(const RunFiles& run, const Locks& locks) { return overviewOf(run, stateOf(run, locks)); }

@@ -9,9 +9,13 @@ namespace pendular::view {
 
 /// How a run is, in a few words for the list of runs, from its summary and its locks: id, state ("preparing",
 /// "running", "waiting" in the queue of another server, "ended", "stopped", "failed", "silent"), reason, time
-/// and endTime (s), healthy (null: nothing is known of it yet), grains, bytes of its folder, changed (s since
-/// 1970, of the summary), driver.
+/// and endTime (s), healthy (null: nothing is known of it yet), grains, bytes of its folder (null: addSize()
+/// sets them), changed (s since 1970, of the summary), driver.
 nlohmann::ordered_json overview(const RunFiles& run, const Locks& locks);
+
+/// Sets the bytes of the folder in an overview or in details. The server keeps sizes of folders; what is in
+/// the files is read in child processes (ReadApart.h).
+void addSize(nlohmann::ordered_json& overview, const RunFiles& run);
 
 /// All that the page of a run needs but frames and tables themselves: the overview, the rows of the summary,
 /// what is wrong, times of the frames, when the restart file was written (s since 1970; 0: there is none),

@@ -57,7 +57,7 @@ struct Options {
     std::string folder = ".", listen = "127.0.0.1", page = installed.page.string(),
                 drivers = installed.drivers.string();
     bool endsWithInput = false;
-    int port = 0, atOnce = 1;
+    int port = 0, atOnce = 1, memory = 2000;
     std::vector<std::string> hosts;
     std::string frameOf;
 };
@@ -79,6 +79,7 @@ void describe(CLI::App& app, Options& o) {
         "page that may show this one in a frame, as http://localhost:8888 of a notebook. Both must "
         "be asked for by the same host name, or browsers keep the cookie back");
     app.add_option("--at-once", o.atOnce, "runs that are started from the page and compute at once");
+    app.add_option("--memory-MB", o.memory, "that reading the files of a run for one answer may take, MB");
     app.add_option("--drivers", o.drivers, "folder of the drivers");
     app.add_option("--page", o.page, "folder of the built page");
     app.add_flag("--end-with-input", o.endsWithInput,
@@ -88,6 +89,7 @@ void describe(CLI::App& app, Options& o) {
 void check(const Options& o) {
     checkValue("view", "--port", o.port, "", {0, 65535});
     checkValue("view", "--at-once", o.atOnce, "", {1, 64});
+    checkValue("view", "--memory-MB", o.memory, "MB", {200, 1e6});
     if (!std::filesystem::exists(std::filesystem::path(o.page) / "main.js"))
         throw InputError(
             fmt::format("view: the page is not in {}; in the source, Tools/view.sh builds it.", o.page));
@@ -160,7 +162,7 @@ int run(const Options& o) {
     Api api({token, hosts, cookie}, runs,
             {o.page, o.drivers,
              o.drivers == o.installed.drivers ? o.installed.driverNames : std::vector<std::string>(),
-             o.frameOf.empty() ? "'none'" : "'self' " + o.frameOf},
+             o.frameOf.empty() ? "'none'" : "'self' " + o.frameOf, static_cast<std::size_t>(o.memory) << 20},
             static_cast<std::size_t>(o.atOnce));
     Server server(api, o.listen, static_cast<std::uint16_t>(o.port), cookie);
     fmt::print(

@@ -15,38 +15,41 @@ Path = Union[str, "os.PathLike[str]"]
 Columns = Dict[str, np.ndarray]
 
 
-def _open(file: Path) -> Any:
-    import h5py
-
+def _tables(file: Path, begin: str = "") -> Columns:
+    """By the kernel, in a process of its own: the HDF5 library itself crashes on some damaged files."""
     if not os.path.isfile(file):
         raise _kernel.InputError(f"There is no file {os.fspath(file)}.")
-    try:
-        return h5py.File(file, "r")
-    except OSError as problem:
-        raise _kernel.InputError(f"{os.fspath(file)} is no file of the HDF5 library.") from problem
+    return _kernel._read_tables(os.fspath(file), begin)
 
 
-def _numbers(data: Any) -> np.ndarray:
+def _numbers(numbers: np.ndarray) -> np.ndarray:
     """As the arrays of a scene are: tensors are 3 x 3, single columns have one axis."""
-    numbers = data[()]
-    if numbers.ndim == 2 and numbers.shape[1] == 1:
+    if numbers.shape[1] == 1:
         return numbers[:, 0]
-    return numbers.reshape(-1, 3, 3) if numbers.ndim == 2 and numbers.shape[1] == 9 else numbers
+    return numbers.reshape(-1, 3, 3) if numbers.shape[1] == 9 else numbers
+
+
+def _columns(file: str, part: str) -> Columns:
+    """Those of a part of a frame."""
+    begin = f"{part}/"
+    columns = {name[len(begin):]: _numbers(numbers) for name, numbers in _tables(file, begin).items()}
+    if not columns:
+        parts = sorted({name.split("/")[0] for name in _kernel._table_names(file)})
+        raise _kernel.InputError(f"The frame {file} has no {part}; it has {', '.join(parts)}.")
+    return columns
 
 
 def frames(file: Path, part: str = "particles") -> Iterator[Tuple[float, Columns]]:
     """The time (s) and the columns of each frame of NAME-fields.h5 (write_hdf5()), by the names that Scene.grains() has.
 
-    file: its name. part: particles, contacts, walls or droplets; of files of write_fields(hdf5=True): fields. Raises InputError.
+    file: its name; the frames are NAME-fields-STEP.h5 beside it. part: particles, contacts, walls or droplets; of files of
+    write_fields(hdf5=True): fields. Raises InputError.
     """
-    with _open(file) as run:
-        if "step" not in run:
-            raise _kernel.InputError(f"{os.fspath(file)} lists no frames.")
-        for time, step in zip(run["time_s"][:], run["step"][:]):
-            frame = run[f"frames/{int(step):09}"]
-            if part not in frame:
-                raise _kernel.InputError(f"A frame of {os.fspath(file)} has no {part}; it has {', '.join(frame)}.")
-            yield float(time), {name: _numbers(data) for name, data in frame[part].items()}
+    index, beginning = _tables(file), os.path.splitext(os.fspath(file))[0]
+    if "step" not in index or "time_s" not in index:
+        raise _kernel.InputError(f"{os.fspath(file)} lists no frames.")
+    for time, step in zip(index["time_s"].ravel(), index["step"].ravel()):
+        yield float(time), _columns(f"{beginning}-{int(step):09}.h5", part)
 
 
 def table(file: Path) -> pandas.DataFrame:
@@ -63,15 +66,7 @@ def table(file: Path) -> pandas.DataFrame:
 
 def restart(file: Path) -> Columns:
     """All tables of a restart file, by their names: "particles/translation", ... (Kernel/Output/README.md lists them)."""
-    tables: Columns = {}
-
-    def take(name: str, data: Any) -> None:
-        if hasattr(data, "shape"):
-            tables[name] = data[()]
-
-    with _open(file) as state:
-        state.visititems(take)
-    return tables
+    return _tables(file)
 
 
 def draw(scene: _kernel.Scene, color: Union[str, np.ndarray, None] = None, *, along: str = "y",
