@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "Kernel/Base/Host.h"
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Math/Pack.h"
@@ -29,6 +30,7 @@ public:
                 std::vector<Pair>& own = found[static_cast<std::size_t>(part)];
                 own.reserve(8 * (to - from));
                 for (std::size_t k = from; k < to; ++k) {
+                    if (part == 0) askForInterruption();  // on the thread that waits for all
                     const auto self = static_cast<std::uint32_t>(k);
                     search.forEachPartner(self, [&](std::uint32_t other) {
                         if (counts(self, other)) own.push_back({self, other});

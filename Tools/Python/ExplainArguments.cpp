@@ -57,15 +57,17 @@ std::string quotedSignature(std::string_view help) {
     return fmt::format("{}({}", own.substr(self.size(), end - self.size()), own.substr(rest, arrow - rest));
 }
 
+/// Said as it is, unless the sentence of Package/_arguments.py is better: of vectorOf(), and of memory.
+bool isKept(const std::string& said) { return said.starts_with("A vector must be ") || said == outOfMemory; }
+
 /// The sentence; null where the error is not of the arguments. By that pybind11 then quotes the signature:
 /// its words change with its version, and what a function that is called raises has no such part.
 PyObject* sentenceFor(const Known& of, const std::string& said, PyObject* arguments, PyObject* named) {
     const auto help = py::reinterpret_steal<py::object>(PyObject_GetAttrString(of.function.ptr(), "__doc__"));
     if (!help) return nullptr;
     const std::string quoted = quotedSignature(textOf(help.ptr()));
-    const bool isOfVector = said.starts_with("A vector must be ");  // by vectorOf()
-    if (!isOfVector && (quoted.empty() || said.find(quoted) == std::string::npos)) return nullptr;
-    const py::object kept = isOfVector ? py::object(py::str(said)) : py::none();
+    if (!isKept(said) && (quoted.empty() || said.find(quoted) == std::string::npos)) return nullptr;
+    const py::object kept = isKept(said) ? py::object(py::str(said)) : py::none();
     const py::object byName = named ? py::reinterpret_borrow<py::object>(named) : py::dict();
     return PyObject_CallFunction(explain.ptr(), "OsOOOO", kept.ptr(), of.name.c_str(), help.ptr(), arguments,
                                  byName.ptr(), of.attribute ? of.attribute.ptr() : Py_None);
@@ -78,7 +80,8 @@ PyObject* callAndExplain(PyObject* self, PyObject* arguments, PyObject* named) {
     PyErr_Fetch(&type, &value, &trace);
     const auto of = known().find(self);
     const bool mayBe = PyErr_GivenExceptionMatches(type, PyExc_TypeError) ||
-                       PyErr_GivenExceptionMatches(type, PyExc_ValueError);
+                       PyErr_GivenExceptionMatches(type, PyExc_ValueError) ||
+                       PyErr_GivenExceptionMatches(type, PyExc_MemoryError);
     const auto said = py::reinterpret_steal<py::object>(mayBe && value ? PyObject_Str(value) : nullptr);
     if (of != known().end() && said)
         if (PyObject* const sentence = sentenceFor(of->second, textOf(said.ptr()), arguments, named)) {
