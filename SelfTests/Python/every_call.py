@@ -194,7 +194,7 @@ def what_comes(call, objects):
 def asked(moment, objects, call):
     """What comes of a call at this moment in the life of a new scene."""
     scene, came = objects["Scene"], []
-    if moment == "before":
+    if moment == "before" or moment.startswith("unmade"):
         return [what_comes(call, objects)]
 
     def look(*_):
@@ -216,12 +216,19 @@ def asked(moment, objects, call):
     return came
 
 
+def unmade(objects, names):
+    """The objects of these classes are made by __new__() alone."""
+    return {name: KERNEL.__dict__[name].__new__(KERNEL.__dict__[name]) if name in names else one for name, one in objects.items()}
+
+
 def main(moment, first):
     every = [(make, *call) for make in SCENES for call in calls()]
     for number, (make, of, label, call) in list(enumerate(every))[first:]:
         objects = selves(make())
         if of and of not in objects:
             continue
+        if moment.startswith("unmade"):  # self, or the objects among the arguments
+            objects = unmade(objects, {of} if moment == "unmade self" else set(objects) - {of})
         print(number, f"{make.__name__}:", label, flush=True)
         for came in dict.fromkeys(asked(moment, objects, call)):
             print(f"\t{came}", flush=True)
