@@ -149,7 +149,8 @@ def _fault_of_values(name: str, of_call: List[Tuple[Argument, Any]]) -> str:
 def _no_memory(name: str, given: Tuple[Any, ...], named: Dict[str, Any], takes: List[Argument]) -> str:
     """Of numbers it says which."""
     values = {**dict(zip([a.name for a in takes if a.kind], given)), **named}
-    numbers = [f"{key} = {_shown(value)}" for key, value in values.items() if _is_number(value) and np.ndim(value) == 0]
+    numbers = [f"{key} = {_shown(value)}" for key, value in values.items()
+               if not isinstance(value, bool) and np.ndim(value) == 0 and _is_number(value)]
     return f"{name}() has not enough memory for {' and '.join(numbers) or 'what it makes'}; ask for less."
 
 
