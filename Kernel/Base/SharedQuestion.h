@@ -19,10 +19,8 @@ public:
 
     void ask() {
         if (!question) return;
-        if (std::this_thread::get_id() != asker) {
-            if (isAnswered.load(std::memory_order_acquire)) throw Left{};
-            return;
-        }
+        if (isAnswered.load(std::memory_order_acquire)) throw Left{};  // also in other parts on this thread
+        if (std::this_thread::get_id() != asker) return;
         try {
             question();
         } catch (...) {

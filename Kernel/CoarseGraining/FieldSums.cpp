@@ -631,12 +631,12 @@ void FieldSums::spreadSorted(const std::vector<Item>& all, const std::vector<std
                              const Slab& slab, Weights&& weights, Carry&& carry) const {
     const std::size_t n = points.counts()[order[2]];
     for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
-        slab.question.ask();
         const std::uint32_t start = all[sorted[begin]].near.begin;
         std::uint32_t stop = start;  // behind the last point of all
         for (end = begin; end < sorted.size() && all[sorted[end]].near.begin == start; ++end)
             stop = std::max(stop, all[sorted[end]].near.end);
         for (std::uint32_t eight = start; eight < stop; eight += Pack::lanes) {
+            slab.question.ask();
             const std::size_t point = eight % n, group = eight / n;
             std::array<double, Pack::lanes> along;
             std::copy_n(places[2].data() + point, Pack::lanes, along.data());

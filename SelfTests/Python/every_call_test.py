@@ -5,12 +5,13 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import pendular
 
 PROGRAM = Path(__file__).with_name("every_call.py")
-SENTENCE = re.compile(r"(InputError|RunError|RunStopped|TypeError|BufferError): [^\n]{20,}\.")
+SENTENCE = re.compile(r"(InputError|RunError|RunStopped|TypeError|BufferError): [^\n]{10,}\.")
 
 
 def outcomes(moment):
@@ -62,12 +63,10 @@ def test_attributes_of_another_class():
     assert len(classes) > 7
     for of in classes:
         unmade = of.__new__(of)
-        for name, member in vars(of).items():
-            if not isinstance(member, property):
-                continue
+        for name, member in [(n, m) for n, m in vars(of).items() if isinstance(m, property)]:
             for other in [unmade, None, 5, *(one.__new__(one) for one in classes if one is not of)]:
                 with pytest.raises(TypeError) as caught:
-                    member.__get__(other) if other is not None else member.fget(other)
+                    member.fget(other)
                 assert "\n" not in str(caught.value) and str(caught.value).endswith("."), f"{of.__name__}.{name}: {caught.value}"
 
 
@@ -102,9 +101,9 @@ def test_heat_of_contacts_without_a_ledger():
 
 def test_a_value_of_several_lines_makes_one():
     scene = pendular.Scene()
-    for axis in ([[0, 1], [2, 3]], "x\ny", pendular):
+    for axis in (np.arange(4).reshape(2, 2), "x\ny", pendular):
         with pytest.raises(pendular.InputError, match="An axis must be 'x', 'y' or 'z', or 0, 1 or 2; it is ") as caught:
-            scene.set_periodic(__import__("numpy").array(axis) if isinstance(axis, list) else axis, 0, 1)
+            scene.set_periodic(axis, 0, 1)
         assert "\n" not in str(caught.value) and len(str(caught.value)) < 130
     with pytest.raises(pendular.InputError) as caught:
         scene.add_species("two\nlines")
@@ -133,7 +132,8 @@ print(len(scene))
     said = done.stdout.splitlines()
     assert said[0] == "MemoryError: radii() has not enough memory for grains = 2147483647; ask for less."
     assert said[1] == "MemoryError: random_radii() has not enough memory for grains = 2147483647; ask for less."
-    assert re.fullmatch(r"InputError: SizeDistribution: number of grains = 4\.6\S+ is out of range; it must .*2\.147\S*.*", said[2])
+    assert said[2] == ("InputError: SizeDistribution: number of grains = 4.611686018427388e+18 is out of range; it must be at least 0 "
+                       "and at most 2147483647.")
     assert re.fullmatch(r"InputError: insert\(\): the grains would have a solid fraction of 1\.12\d* of the region; .*", said[3])
     assert re.fullmatch(r"InputError: insert\(\): .* solid fraction of .*", said[4])
     assert said[5].startswith("MemoryError: fields() has not enough memory for spacing = 0.00195")
