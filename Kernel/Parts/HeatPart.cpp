@@ -374,6 +374,7 @@ void HeatPart::compareSetUp(StateArchive& archive, StepContext& /*scene*/) {
     archive.require(laws[0] == 0 || laws[0] == 1, "laws", "are not known");
     conduction = static_cast<Conduction>(static_cast<int>(laws[0]));
     radiusFactor = laws[1], contactsHeat = laws[2] != 0;
+    if (contactsHeat) noteLosses();  // the run has begun
 }
 
 void HeatPart::visitState(StateArchive& archive, StepContext& /*scene*/) {

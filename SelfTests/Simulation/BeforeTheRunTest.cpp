@@ -63,6 +63,7 @@ Dry glass() {
     Dry species;
     species.setDensity(2500);
     species.setElasticModulusAndPoissonRatio(5e6, 0.25);
+    species.setEffectiveShearModulus(1e6);
     species.setDissipation(1e-4);
     species.setSlidingFrictionCoefficient(0.4);
     return species;
