@@ -24,6 +24,7 @@ FunctionOfC calledBefore = nullptr;
 struct Known {
     std::string name;
     py::handle attribute;  // that it sets
+    bool isMethod = false;
     py::handle function{};
 };
 /// By the object that C hands on, which lives as long as the module.
@@ -73,7 +74,19 @@ PyObject* sentenceFor(const Known& of, const std::string& said, PyObject* argume
                                  byName.ptr(), of.attribute ? of.attribute.ptr() : Py_None);
 }
 
+/// Whether a method is called of None, for which pybind11 may hand a null pointer on.
+bool isOfNone(PyObject* self, PyObject* arguments) {
+    if (PyTuple_GET_SIZE(arguments) == 0 || PyTuple_GET_ITEM(arguments, 0) != Py_None) return false;
+    const auto of = known().find(self);
+    return of != known().end() && of->second.isMethod;
+}
+
 PyObject* callAndExplain(PyObject* self, PyObject* arguments, PyObject* named) {
+    if (isOfNone(self, arguments)) {
+        const std::string text = known().find(self)->second.name + " is of an object, and None has it not.";
+        PyErr_SetString(PyExc_TypeError, text.c_str());
+        return nullptr;
+    }
     PyObject* const answer = calledBefore(self, arguments, named);
     if (answer || !explain) return answer;
     PyObject *type = nullptr, *value = nullptr, *trace = nullptr;
@@ -103,7 +116,7 @@ void explainOne(py::handle function, const Known& of) {
     if (!self || record->ml_flags != (METH_VARARGS | METH_KEYWORDS) || record->ml_meth == ours) return;
     calledBefore = reinterpret_cast<FunctionOfC>(reinterpret_cast<void (*)()>(record->ml_meth));
     record->ml_meth = ours;
-    known().emplace(self, Known{of.name, of.attribute, function});
+    known().emplace(self, Known{of.name, of.attribute, of.isMethod, function});
 }
 
 void explainClass(py::handle type) {
@@ -111,9 +124,9 @@ void explainClass(py::handle type) {
     for (const auto& [key, member] : py::dict(type.attr("__dict__"))) {
         const std::string name = py::str(key);
         if (py::isinstance(member, reinterpret_cast<PyObject*>(&PyProperty_Type))) {
-            explainOne(member.attr("fset"), {name, member});
-            explainOne(member.attr("fget"), {name, {}});
-        } else explainOne(member, {name == "__init__" ? own : name, {}});
+            explainOne(member.attr("fset"), {name, member, true});
+            explainOne(member.attr("fget"), {name, {}, true});
+        } else explainOne(member, {name == "__init__" ? own : name, {}, true});
     }
 }
 
