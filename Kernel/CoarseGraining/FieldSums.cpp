@@ -11,6 +11,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/Parallel.h"
+#include "Kernel/Base/SharedQuestion.h"
 #include "Kernel/Contacts/Prefetch.h"
 #include "Kernel/Math/GaussLegendre.h"
 #include "Kernel/Math/Pack.h"
@@ -635,6 +636,7 @@ void FieldSums::spreadSorted(const std::vector<Item>& all, const std::vector<std
         for (end = begin; end < sorted.size() && all[sorted[end]].near.begin == start; ++end)
             stop = std::max(stop, all[sorted[end]].near.end);
         for (std::uint32_t eight = start; eight < stop; eight += Pack::lanes) {
+            slab.question.ask();
             const std::size_t point = eight % n, group = eight / n;
             std::array<double, Pack::lanes> along;
             std::copy_n(places[2].data() + point, Pack::lanes, along.data());
@@ -706,27 +708,35 @@ void FieldSums::Items::clear() {
     isAdhesive = false;
 }
 
-void FieldSums::makeItems(const GrainState& state, std::size_t share, std::size_t sharesOfAll,
-                          Items& of) const {
+void FieldSums::makeItems(const GrainState& state, std::size_t share, std::size_t sharesOfAll, Items& of,
+                          SharedQuestion& question) const {
     of.clear();
     const std::size_t grains = state.grains.size(), contacts = state.contacts.size();
-    for (std::size_t k = grains * share / sharesOfAll; k < grains * (share + 1) / sharesOfAll; ++k)
+    for (std::size_t k = grains * share / sharesOfAll; k < grains * (share + 1) / sharesOfAll; ++k) {
+        question.ask();
         addGrain(state, k, of);
+    }
     if (!hasContacts()) return;
-    for (std::size_t k = contacts * share / sharesOfAll; k < contacts * (share + 1) / sharesOfAll; ++k)
+    for (std::size_t k = contacts * share / sharesOfAll; k < contacts * (share + 1) / sharesOfAll; ++k) {
+        question.ask();
         addContact(state, k, of);
+    }
 }
 
 void FieldSums::spread(const Items& of, const Slab& slab) const {
     for (const PointItem& item : of.grains) {
+        slab.question.ask();
         if (hasContacts()) spread<Number, 20>(item.at, item.group, item.values.data(), slab);
         else spread<Number, countWithoutContacts>(item.at, item.group, item.values.data(), slab);
     }
     for (const PointItem& item : of.tractions)
         spread<Traction, 3>(item.at, item.group, item.values.data(), slab);
-    for (const PointItem& item : of.nodes)
+    for (const PointItem& item : of.nodes) {
+        slab.question.ask();
         spread<ContactStress, 15>(item.at, item.group, item.values.data(), slab);
+    }
     for (const LineItem& line : of.lines) {
+        slab.question.ask();
         if (of.isAdhesive) spread<ContactStress, 15>(line, slab);
         else spread<ContactStress, 9>(line, slab);
     }
@@ -745,15 +755,16 @@ void FieldSums::refuseMovingImages(const FieldGrid& grid, const PeriodicBox& per
 }
 
 /// Each share has its own sums, and is summed as soon as it is made.
-void FieldSums::addByShares(const GrainState& state, int threads, std::size_t sharesOfAll) {
+void FieldSums::addByShares(const GrainState& state, int threads, std::size_t sharesOfAll,
+                            SharedQuestion& question) {
     items.resize(static_cast<std::size_t>(std::max(threads, 1)));
     sumsOfShares.resize(sharesOfAll);
     inParts(sharesOfAll, threads, [&](int thread, std::size_t begin, std::size_t end) {
         for (std::size_t share = begin; share < end; ++share) {
             Items& own = items[static_cast<std::size_t>(thread)];
-            makeItems(state, share, sharesOfAll, own);
+            makeItems(state, share, sharesOfAll, own, question);
             sumsOfShares[share].assign(sums.size(), Eight{});
-            const Slab slab{0, slabLength(), sumsOfShares[share].data()};
+            const Slab slab{0, slabLength(), sumsOfShares[share].data(), question};
             if (isAlongAxis()) spreadAlongAxis(own, slab);
             else spread(own, slab);
         }
@@ -765,26 +776,31 @@ void FieldSums::addByShares(const GrainState& state, int threads, std::size_t sh
 }
 
 /// All shares are made, and then each thread sums what falls into its part of the grid.
-void FieldSums::addBySlabs(const GrainState& state, int threads) {
+void FieldSums::addBySlabs(const GrainState& state, int threads, SharedQuestion& question) {
     items.resize(shares);
     inParts(shares, threads, [&](int, std::size_t begin, std::size_t end) {
-        for (std::size_t share = begin; share < end; ++share) makeItems(state, share, shares, items[share]);
+        for (std::size_t share = begin; share < end; ++share)
+            makeItems(state, share, shares, items[share], question);
     });
     inParts(slabLength(), threads, [&](int, std::size_t begin, std::size_t end) {
-        for (const Items& ofShare : items) spread(ofShare, {begin, end, sums.data()});
+        for (const Items& ofShare : items) spread(ofShare, {begin, end, sums.data(), question});
     });
 }
 
-void FieldSums::add(const GrainState& state, int threads) {
+void FieldSums::add(const GrainState& state, int threads, const std::function<void()>& ask) {
     refuseMovingImages(points, state.periodic);
     findAlone(state.periodic);
     if (hasContacts()) gatherContactsOfGrains(state, threads);
     // Into how many shares goes by the points, so that fields of grains are the same bits with and without
     // those of contacts.
     const std::size_t size = sums.size() / stored * count;
-    if (size <= fewSums || isAlongAxis())
-        addByShares(state, threads, std::clamp(fewSums * shares / size, std::size_t{1}, shares));
-    else addBySlabs(state, threads);
+    SharedQuestion question(ask);
+    question.during([&] {
+        if (size <= fewSums || isAlongAxis())
+            addByShares(state, threads, std::clamp(fewSums * shares / size, std::size_t{1}, shares),
+                        question);
+        else addBySlabs(state, threads, question);
+    });
     ++added;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,8 @@
 #include "Kernel/Math/Pack.h"
 
 namespace pendular {
+
+class SharedQuestion;
 
 /// Which grains have fields of their own, beside those of all grains.
 class GrainGroups {
@@ -76,7 +79,8 @@ public:
 
     /// A state at one time; all have the same weight. The sums do not depend on the number of threads. Throws
     /// InputError for coordinates around an axis where images move.
-    void add(const GrainState& state, int threads = 1);
+    /// @param ask called now and then, on this thread; where it throws, the sums are of no use any more
+    void add(const GrainState& state, int threads = 1, const std::function<void()>& ask = {});
     static void refuseMovingImages(const FieldGrid& grid, const PeriodicBox& periodic);
     [[nodiscard]] std::size_t states() const { return added; }
 
@@ -141,6 +145,7 @@ private:
     struct Slab {
         std::size_t begin, end;
         Eight* sums;
+        SharedQuestion& question;
     };
     /// Into how many shares grains and contacts are divided, whatever the number of threads: fewer where
     /// there are many points along one axis.
@@ -149,9 +154,10 @@ private:
     static constexpr std::size_t fewSums = 1024;
 
     void gatherContactsOfGrains(const GrainState& state, int threads);
-    void addByShares(const GrainState& state, int threads, std::size_t sharesOfAll);
-    void addBySlabs(const GrainState& state, int threads);
-    void makeItems(const GrainState& state, std::size_t share, std::size_t sharesOfAll, Items& items) const;
+    void addByShares(const GrainState& state, int threads, std::size_t sharesOfAll, SharedQuestion& question);
+    void addBySlabs(const GrainState& state, int threads, SharedQuestion& question);
+    void makeItems(const GrainState& state, std::size_t share, std::size_t sharesOfAll, Items& items,
+                   SharedQuestion& question) const;
     void addGrain(const GrainState& state, std::size_t number, Items& items) const;
     void addGrainAt(const Vector<double>& position, Vector<double> velocity, const GrainState::Grain& grain,
                     std::size_t number, Items& items) const;

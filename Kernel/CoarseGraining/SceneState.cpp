@@ -19,6 +19,7 @@
 #include "Kernel/Output/PolyData.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Simulation/ListedContacts.h"
 #include "Kernel/Simulation/Scene.h"
 
 namespace pendular {
@@ -267,12 +268,13 @@ void joinBodies(GrainState& state, const ParticleStore& grains, const std::vecto
 }  // namespace
 
 void takeState(const Scene& scene, GrainState& state, FieldContent content) {
+    if (content != FieldContent::WithoutContacts) requireListedContacts(scene, "fields() with contacts");
     scene.contacts().ranks().requireAllGrains("fields");
     const ParticleStore& grains = scene.particleHandler.store();
     state.shapes.clear(), state.branches.clear();
     if (content == FieldContent::WithoutContacts) state.contacts.clear();
     state.time = scene.getTime();
-    state.periodic = scene.contacts().periodicBox();
+    state.periodic = boxOfContacts(scene);
     const GrainColumn* film = nullptr;
     for (const GrainColumn& column : grains.columns)
         if (column.name == "liquid_film") film = &column;

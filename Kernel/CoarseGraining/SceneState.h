@@ -11,7 +11,8 @@ struct PolyData;
 /// same.
 void takeFlowAway(GrainState& state);
 
-/// The grains and contacts of a scene, as of the last step: all contacts that have a force.
+/// The grains and contacts of a scene, as of the last step: all contacts that have a force. With contacts it
+/// throws InputError before initialise().
 /// @param state keeps its memory from one time to the next
 void takeState(const Scene& scene, GrainState& state, FieldContent content = FieldContent::All);
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <numbers>
 
+#include "Kernel/Base/Host.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Insertion/DenseBodies.h"
 #include "Kernel/Insertion/DenseRefusals.h"
@@ -92,6 +93,7 @@ std::vector<PlacedBody> drawBodies(const InsertionScene& scene, const BodyMixtur
     const CountedRandom random(options.seed);
     std::vector<PlacedBody> bodies;
     for (double sum = 0; !byNumber || bodies.size() < mean;) {
+        askForInterruption();
         const BodyKind& kind = mixture[mixture.draw(random, bodies.size())];
         const PlacedBody next{&kind, kind.sizes.drawRadius(random, bodies.size())};
         if ((sum += massOf(scene, next)) > whole && !byNumber) break;
@@ -107,6 +109,20 @@ double fullMassOf(const InsertionScene& scene, const BodyMixture& mixture, doubl
     for (std::size_t k = 0; k < mixture.size(); ++k)
         mean += mixture.shareOf(k) * std::numbers::pi / 6 * mixture[k].sizes.moment(3);
     return mixture.meanMass(scene.particles) / mean * volume;
+}
+
+/// Where even the smallest bodies would fill more than the region, none is drawn: it may be a number for
+/// which there is no memory.
+void refuseMoreThanTheRegion(const BodyMixture& mixture, const Amount& amount, double volume, double full) {
+    double smallest = infinity, heaviest = 0;  // m^3, of bodies
+    for (const BodyKind& kind : mixture) {
+        smallest = std::min(smallest, sphereMass(0.5 * kind.sizes.smallest(), 1));
+        heaviest = std::max(heaviest, sphereMass(0.5 * kind.sizes.largest(), 1));
+    }
+    const double least = amount.kind() == Amount::Kind::Grains
+                             ? amount.value() * smallest / volume
+                             : amount.massOf(0, full) / full - heaviest / volume;
+    if (least > 1) refuseTooDense(mixture.hasBodies() ? "bodies" : "grains", amount, least);
 }
 
 /// The bodies of an amount, the largest first.
@@ -152,6 +168,7 @@ std::vector<PlacedBody> placeOneByOne(const InsertionScene& scene, const std::ve
         std::vector<Ball> spheres;
         bool isPlaced = false;
         for (std::uint32_t attempt = 0; attempt < options.tries && !isPlaced; ++attempt) {
+            askForInterruption();
             const auto even = [&](std::uint32_t number) {
                 return random.uniform(first + k, purposeOfTurns + number, attempt);
             };
@@ -232,12 +249,13 @@ Inserted insertBodies(const InsertionScene& scene, const BodyMixture& mixture, c
     if (areSpheres)
         refuseWithoutRoom(owner, *region, scene.walls, scene.periodic, 0.5 * mixture[0].sizes.smallest(),
                           0.5 * mixture[0].sizes.largest(), options.wholeGrains);
+    const double full = fullMassOf(scene, mixture, region->volume());
+    refuseMoreThanTheRegion(mixture, amount, region->volume(), full);
     std::vector<PlacedBody> bodies = bodiesOf(scene, mixture, amount, *region, options);
     Inserted result;
     result.wanted = bodies.size();
     double mass = 0;  // kg
     for (const PlacedBody& body : bodies) mass += massOf(scene, body);
-    const double full = fullMassOf(scene, mixture, region->volume());
     result.wantedMass = amount.kind() == Amount::Kind::Grains ? mass : amount.massOf(0, full);
     if (bodies.empty()) return result;
     if (areSpheres) placeSpheres(scene, bodies, *region, amount, mass / full, options, result.firstLeftOut);

@@ -87,6 +87,7 @@ private:
         const CountedRandom random(seed);
         std::uint64_t number = 0;
         for (PlacedBody& body : placed) {
+            askForInterruption();
             for (int attempt = 0; attempt < 1000; ++attempt, ++number) {
                 body.place = region.candidate(points[number], hasMargin ? body.radius : 0);
                 if (region.contains(body.place, 0)) break;

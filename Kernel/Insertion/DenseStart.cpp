@@ -80,6 +80,7 @@ private:
         const SpreadPoints points(radii.size(), seed, purposeOfPlaces);
         std::uint64_t number = 0;
         for (const double radius : radii) {
+            askForInterruption();
             const double margin = hasMargin ? radius : 0;
             Point place{};
             for (int attempt = 0; attempt < 1000; ++attempt, ++number) {

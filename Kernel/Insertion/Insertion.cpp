@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "Kernel/Base/Host.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Insertion/DenseRefusals.h"
 #include "Kernel/Insertion/DenseStart.h"
@@ -78,6 +79,7 @@ std::vector<double> radiiOf(const Amount& amount, const SizeDistribution& sizes,
     std::vector<double> radii;
     const CountedRandom random(options.seed);
     for (double sum = 0;;) {
+        askForInterruption();
         const double radius = sizes.drawRadius(random, radii.size());
         if ((sum += sphereMass(radius, density)) > whole) break;
         radii.push_back(radius);
@@ -144,6 +146,7 @@ std::vector<Vector<double>> placeOneByOne(const InsertionScene& scene, std::span
         const double radius = radii[k], margin = options.wholeGrains ? radius : 0;
         const std::uint32_t tries = radius >= noRoomFor ? std::max(options.tries / 100, 1u) : options.tries;
         for (std::uint32_t attempt = 0; attempt < tries; ++attempt) {
+            askForInterruption();
             const Vector<double> centre =
                 candidateOf(region, random, first + k, purposeOfPlaces, attempt, margin);
             if (!region.contains(centre, margin) ||

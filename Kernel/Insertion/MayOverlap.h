@@ -5,7 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "Kernel/Base/Host.h"
 #include "Kernel/Base/Parallel.h"
+#include "Kernel/Base/SharedQuestion.h"
 #include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Math/Pack.h"
 
@@ -23,20 +25,24 @@ public:
               int threads, std::size_t worthAThread, Counts&& counts, Visit&& visit) {
         const NeighbourSearch search(spheres, skin, periodic, threads);
         std::vector<std::vector<Pair>> found(static_cast<std::size_t>(threads));
-        inParts(
-            spheres.size(), threads,
-            [&](int part, std::size_t from, std::size_t to) {
-                std::vector<Pair>& own = found[static_cast<std::size_t>(part)];
-                own.reserve(8 * (to - from));
-                for (std::size_t k = from; k < to; ++k) {
-                    const auto self = static_cast<std::uint32_t>(k);
-                    search.forEachPartner(self, [&](std::uint32_t other) {
-                        if (counts(self, other)) own.push_back({self, other});
-                    });
-                    visit(k);
-                }
-            },
-            worthAThread);
+        SharedQuestion question(&askForInterruption);
+        question.during([&] {
+            inParts(
+                spheres.size(), threads,
+                [&](int part, std::size_t from, std::size_t to) {
+                    std::vector<Pair>& own = found[static_cast<std::size_t>(part)];
+                    own.reserve(8 * (to - from));
+                    for (std::size_t k = from; k < to; ++k) {
+                        question.ask();
+                        const auto self = static_cast<std::uint32_t>(k);
+                        search.forEachPartner(self, [&](std::uint32_t other) {
+                            if (counts(self, other)) own.push_back({self, other});
+                        });
+                        visit(k);
+                    }
+                },
+                worthAThread);
+        });
         sort(found, spheres.size());
     }
 

@@ -17,6 +17,7 @@
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Particles/PeriodicBox.h"
+#include "Kernel/Simulation/ListedContacts.h"
 #include "Kernel/Simulation/Scene.h"
 #include "Kernel/Walls/WallHandler.h"
 #include "Kernel/Walls/WallSurface.h"
@@ -151,11 +152,11 @@ SceneFrame frameOf(const FrameContent& content, const AddedFields& added, const 
         addShapeFields(store, *shapes, frame.grains);
         frame.shapes = shapeSurfaces(store, *shapes);
     }
-    frame.grains.wholeFields = boxFields(scene.contacts().periodicBox());
+    frame.grains.wholeFields = boxFields(boxOfContacts(scene));
     requireDistinctNames(frame.grains.pointFields, "grains");
     if (frame.contacts) requireDistinctNames(frame.contacts->cellFields, "contacts");
     if (scene.wallHandler.getSize() > 0) {
-        const auto [lowest, highest] = boxAround(store, scene.contacts().periodicBox(), ranks);
+        const auto [lowest, highest] = boxAround(store, boxOfContacts(scene), ranks);
         frame.walls = wallPolygons(scene.wallHandler, lowest, highest);
     }
     if (!scene.sprayHandler.isEmpty()) frame.droplets = dropletPoints<Real>(scene.sprayHandler);

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
@@ -344,15 +345,41 @@ std::size_t BodyHandler::getSize() const {
     return particles.store().bodies.size();
 }
 
+/// Whether numbers were given that no body has any more.
+static bool hasRemoved(const RigidBodies& bodies) {
+    return bodies.size() > 0 && bodies.numberOf(bodies.size() - 1) >= bodies.size();
+}
+
 BodyReference BodyHandler::getObject(std::size_t number) {
     const ParticleStore& grains = particles.store();
     const std::uint32_t at = grains.bodies.find(number);
     if (grains.isShared && !(at < grains.bodies.size()))
         throw InputError(fmt::format("Rigid body {} is on another rank, or was removed.", number));
     if (at == RigidBodies::none)
-        throw InputError(
-            fmt::format("There is no rigid body {}; the scene has {} (counted from 0).", number, getSize()));
+        throw InputError(fmt::format(
+            "There is no rigid body {}{}.", number,
+            hasRemoved(grains.bodies)
+                ? ", or it was removed; a loop over bodyHandler, or bodies(), has those that there are"
+                : fmt::format("; the scene has {} (counted from 0)", getSize())));
     return {particles, static_cast<std::uint32_t>(number)};
+}
+
+std::uint32_t BodyHandler::firstFrom(std::size_t first, std::size_t bound) const {
+    const RigidBodies& bodies = particles.store().bodies;
+    std::size_t low = 0, end = bodies.size();  // they are in the order of their numbers
+    while (low < end) {
+        const std::size_t middle = std::midpoint(low, end);
+        if (bodies.numberOf(middle) < first) low = middle + 1;
+        else end = middle;
+    }
+    return low < bodies.size() && bodies.numberOf(low) < bound ? bodies.numberOf(low) : RigidBodies::none;
+}
+
+BodyHandler::Iterator BodyHandler::begin() {
+    ParticleHandler::Inside::requireAll(particles, "a loop over bodyHandler");
+    const RigidBodies& bodies = particles.store().bodies;
+    const std::size_t bound = bodies.size() == 0 ? 0 : std::size_t{bodies.numberOf(bodies.size() - 1)} + 1;
+    return {*this, firstFrom(0, bound), bound};
 }
 
 std::optional<std::uint32_t> BodyHandler::bodyOf(std::uint32_t grain) const {

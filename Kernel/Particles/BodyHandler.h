@@ -96,8 +96,32 @@ public:
     /// Throws InputError where each rank of a scene has its own bodies only, until gather().
     [[nodiscard]] std::size_t getSize() const;
     [[nodiscard]] bool isEmpty() const { return getSize() == 0; }
-    /// The body with this number. Throws InputError if there is none.
+    /// The body with this number, of those that were added and are not removed. Throws InputError if there is
+    /// none.
     [[nodiscard]] BodyReference getObject(std::size_t number);
+    /// Over all bodies that there are at its begin, in the order of their numbers, also where others were
+    /// removed: for (BodyReference body : bodyHandler). What is added on the way is not visited; the body
+    /// itself may be removed. Throws InputError as getSize() does.
+    class Iterator {
+    public:
+        BodyReference operator*() const { return {handler->particles, number}; }
+        Iterator& operator++() {
+            number = handler->firstFrom(std::size_t{number} + 1, bound);
+            return *this;
+        }
+        friend bool operator==(const Iterator& a, const Iterator& b) { return a.number == b.number; }
+
+    private:
+        friend class BodyHandler;
+        Iterator(BodyHandler& bodies, std::uint32_t first, std::size_t end)
+            : handler(&bodies), number(first), bound(end) {}
+
+        BodyHandler* handler;
+        std::uint32_t number;  // RigidBodies::none at the end
+        std::size_t bound;     // the number of the first that is not visited
+    };
+    [[nodiscard]] Iterator begin();
+    [[nodiscard]] Iterator end() { return {*this, RigidBodies::none, 0}; }
     /// The number of the body that a grain is part of, if any.
     [[nodiscard]] std::optional<std::uint32_t> bodyOf(std::uint32_t grain) const;
 
@@ -118,6 +142,8 @@ private:
                       const Quaternion& frame);
 
     void holdAsJoined(HeldBits held);
+    /// The smallest number of a body from the first on and below the bound, or RigidBodies::none.
+    [[nodiscard]] std::uint32_t firstFrom(std::size_t first, std::size_t bound) const;
 
     ParticleHandler& particles;
     const PeriodicBox& periodic;

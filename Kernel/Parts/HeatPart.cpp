@@ -50,7 +50,18 @@ void HeatPart::setSoftening(double ratio) {
     changedInRun |= hasBegun;
 }
 
+[[noreturn]] static void refuseWithoutLedger() {
+    throw InputError("heat: heatByContacts() needs the energy ledger; call keepEnergyLedger() at set-up.");
+}
+
+/// From now on the account tells what each contact loses.
+void HeatPart::noteLosses() const {
+    if (!account) refuseWithoutLedger();
+    account->noteLosses();
+}
+
 void HeatPart::heatByContacts(bool heats) {
+    if (heats && hasBegun) noteLosses();
     contactsHeat = heats;
     changedInRun |= hasBegun;
 }
@@ -108,8 +119,7 @@ void HeatPart::check(const StepContext& scene) {
                             "Conduction::Constriction, or hold no walls at a temperature.",
                             wall));
     }
-    if (contactsHeat && !scene.ledger)
-        throw InputError("heat: heatByContacts() needs the energy ledger; call keepEnergyLedger().");
+    if (contactsHeat && !scene.ledger) refuseWithoutLedger();
     for (const std::uint32_t place : scene.grains().place)
         checkValue(nameOfGrain(scene.grains(), scene.grains().identity[place]), "temperature",
                    temperatures[scene.grains().identity[place]], "K", notNegative);
@@ -117,7 +127,8 @@ void HeatPart::check(const StepContext& scene) {
 
 void HeatPart::begin(StepContext& scene, bool isRestarted) {
     hasBegun = true;
-    if (contactsHeat) scene.account->noteLosses();
+    account = scene.ledger ? scene.account : nullptr;
+    if (contactsHeat) noteLosses();
     if (!isRestarted) heat.stored = storedIn(scene);
 }
 
@@ -363,6 +374,7 @@ void HeatPart::compareSetUp(StateArchive& archive, StepContext& /*scene*/) {
     archive.require(laws[0] == 0 || laws[0] == 1, "laws", "are not known");
     conduction = static_cast<Conduction>(static_cast<int>(laws[0]));
     radiusFactor = laws[1], contactsHeat = laws[2] != 0;
+    if (contactsHeat) noteLosses();  // the run has begun
 }
 
 void HeatPart::visitState(StateArchive& archive, StepContext& /*scene*/) {

@@ -14,6 +14,8 @@
 
 namespace pendular {
 
+class EnergyAccount;
+
 /// What the heat in grains of a species depends on.
 struct HeatMaterial {
     double conductivity = unset;  // k, W/(m K); 0: an insulator
@@ -83,7 +85,7 @@ public:
     void setSoftening(double ratio);
     /// What contacts lose by EnergyLedger::lost() heats both bodies, half each: in friction, damping, plastic
     /// flow, sintering, and where adhesion breaks; less what stiffening gives while they close. Bonds heat
-    /// nothing. Needs keepEnergyLedger().
+    /// nothing. Needs keepEnergyLedger(): in a run without a ledger it throws InputError.
     void heatByContacts(bool heats = true);
 
     /// W/K, of a contact between species a and b, by the laws of the scene; before its set-up by Hertz's
@@ -122,6 +124,7 @@ private:
     };
 
     void setMaterialOf(int species, const HeatMaterial& material);
+    void noteLosses() const;
     void compareSettings(StateArchive& archive) const;
     void requireTemperatures(StepContext& step) const;
     [[nodiscard]] std::optional<std::string> objectionToSoftening(const ContactLaws& ofScene) const;
@@ -150,6 +153,7 @@ private:
     std::map<int, HeldWall> heldWalls;      // by number
     std::map<int, GivenByWall> byWalls;     // by number, also of those that are held no more
     const ContactLaws* laws = nullptr;      // of the scene, once it is set up
+    EnergyAccount* account = nullptr;       // of a run that keeps a ledger
     Conduction conduction = Conduction::Constriction;
     double radiusFactor = 1;  // of contact radii
     bool contactsHeat = false;

@@ -7,7 +7,9 @@
 #include <numeric>
 #include <utility>
 
+#include "Kernel/Base/Host.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Particles/ParticleStore.h"
 
 namespace pendular {
 
@@ -17,6 +19,11 @@ using Class = SizeDistribution::Class;
 
 /// The purpose of the random numbers of the order of grains (CountedRandom).
 constexpr std::uint32_t purposeOfOrder = 0x512E6;
+
+void refuseTooMany(std::size_t grains) {
+    checkValue("SizeDistribution", "number of grains", static_cast<double>(grains), "",
+               fromZeroTo(ParticleStore::largestIdentity));
+}
 
 void refuseTooFew(const std::vector<Class>& classes, std::size_t grains) {
     double least = 1;
@@ -48,6 +55,7 @@ void addClass(const SizeDistribution& sizes, const Class& c, std::size_t count, 
     };
     double low = border(0);
     for (std::size_t k = 1; k <= count; ++k) {
+        askForInterruption();
         const double high = border(k), number = sizes.moment(0, low, high);
         // Where round-off leaves nothing between two borders, they are the same diameter.
         const double diameter = number > 0 ? std::cbrt(sizes.moment(3, low, high) / number) : high;
@@ -78,6 +86,7 @@ std::vector<std::size_t> countsOfClasses(const SizeDistribution& sizes, std::siz
 }
 
 std::vector<double> exactRadii(const SizeDistribution& sizes, std::size_t grains) {
+    refuseTooMany(grains);
     const std::vector<Class> classes = sizes.classes();
     refuseTooFew(classes, grains);
     const std::vector<std::size_t> counts = countsOfClasses(sizes, grains);
@@ -90,10 +99,14 @@ std::vector<double> exactRadii(const SizeDistribution& sizes, std::size_t grains
 }
 
 std::vector<double> randomRadii(const SizeDistribution& sizes, std::size_t grains, std::uint64_t seed) {
+    refuseTooMany(grains);
     const CountedRandom random(seed);
     std::vector<double> radii;
     radii.reserve(grains);
-    for (std::size_t k = 0; k < grains; ++k) radii.push_back(sizes.drawRadius(random, k));
+    for (std::size_t k = 0; k < grains; ++k) {
+        askForInterruption();
+        radii.push_back(sizes.drawRadius(random, k));
+    }
     return radii;
 }
 

@@ -12,8 +12,8 @@ std::vector<std::size_t> countsOfClasses(const SizeDistribution& sizes, std::siz
 /// its countsOfClasses(), cut into parts of equal number, and a grain has the mean volume of its part. So the
 /// sample's volume up to the border of any part is that of the class, but for the rounding of the counts.
 ///
-/// Throws InputError where a class with more than a hundredth of the volume gets less than half a grain,
-/// with the number of grains that would be needed.
+/// Throws InputError for more grains than a scene can have, and where a class with more than a hundredth of
+/// the volume gets less than half a grain, with the number of grains that would be needed.
 std::vector<double> exactRadii(const SizeDistribution& sizes, std::size_t grains);
 
 /// Radii (m) of so many grains drawn at random, each for itself.

@@ -298,6 +298,39 @@ TEST(Heat, closesTheAccountOfAllEnergy) {
     EXPECT_GT(box.heat.ledger().fromDriver, 0);
 }
 
+// Also where contacts begin to heat in the run, and in one that goes on from a restart file.
+TEST(Heat, contactsHeatFromTheStepOnInWhichTheyAreAskedTo) {
+    const support::TestFolder folder;
+    WarmBox box(1);
+    box.heat.heatByContacts(false);
+    box.initialise();
+    box.runTo(2000);
+    const double before = box.energyLedger().lost();  // J
+    EXPECT_GT(before, 0);
+    EXPECT_EQ(box.heat.ledger().fromContacts, 0);
+    box.heat.heatByContacts();
+    box.step();
+    box.writeRestart(folder.path() / "heating.h5");
+    box.runTo(4000);
+    const HeatLedger& ledger = box.heat.ledger();
+    EXPECT_NEAR((ledger.fromContacts + ledger.toWalls) / (box.energyLedger().lost() - before), 1, 1e-11);
+    WarmBox resumed(1);
+    resumed.heat.heatByContacts(false);
+    resumed.restartFrom(folder.path() / "heating.h5");
+    resumed.initialise();
+    resumed.runTo(4000);
+    EXPECT_EQ(resumed.bits(), box.bits());
+}
+
+TEST(Heat, contactsOfARunWithoutALedgerDoNotHeat) {
+    Column column(2, 1);
+    column.run(1);
+    EXPECT_TRUE(contains(support::refusal([&] { column.heat.heatByContacts(); }),
+                         "heatByContacts() needs the energy ledger; call keepEnergyLedger() at set-up."));
+    column.heat.heatByContacts(false);
+    column.step();
+}
+
 TEST(Heat, bitsDoNotDependOnThreadsOrRestarts) {
     const support::TestFolder folder;
     WarmBox whole(1), threaded(3);

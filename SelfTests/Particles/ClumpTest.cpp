@@ -168,6 +168,46 @@ TEST(Clump, addsAllOfItOrNothing) {
 
 // Grains stand for shares of the mass of their body in fields and outputs, and a plane counts the body:
 // overlaps do not count twice.
+/// The numbers of the bodies that a loop visits.
+std::vector<std::uint32_t> visited(BodyHandler& bodies) {
+    std::vector<std::uint32_t> numbers;
+    for (const BodyReference body : bodies) numbers.push_back(body.getId());
+    return numbers;
+}
+
+// Numbers of bodies have gaps after a removal; the loop has those that there are.
+TEST(Clump, areVisitedAlsoWhereOthersWereRemoved) {
+    using Numbers = std::vector<std::uint32_t>;
+    FewGrains<Smooth> scene(material(), {}, 1e-6);
+    BodyHandler& bodies = scene.bodyHandler;
+    EXPECT_EQ(visited(bodies), Numbers{});
+    Clump clump{ClumpTemplate(dimer(1e-3))};
+    clump.setSpecies(scene.speciesHandler.getObject(0));
+    const auto add = [&](int place) {
+        clump.setPosition({0.01 * place, 0, 0});
+        bodies.copyAndAddObject(clump);
+    };
+    for (int k = 0; k < 6; ++k) add(k);
+    for (const std::size_t removed : {0, 3, 5}) bodies.removeObject(removed);
+    EXPECT_EQ(visited(bodies), (Numbers{1, 2, 4}));
+    EXPECT_EQ(bodies.getSize(), 3u);
+    EXPECT_EQ(support::refusal([&] { static_cast<void>(bodies.getObject(0)); }),
+              "There is no rigid body 0, or it was removed; a loop over bodyHandler, or bodies(), has those "
+              "that there are.");
+    // The body itself may go, and others may come, which are not visited.
+    Numbers seen;
+    for (const BodyReference body : bodies) {
+        seen.push_back(body.getId());
+        add(10 + static_cast<int>(seen.size()));
+        if (body.getId() == 2) bodies.removeObject(2);
+    }
+    EXPECT_EQ(seen, (Numbers{1, 2, 4}));
+    EXPECT_EQ(visited(bodies), (Numbers{1, 4, 6, 7, 8}));
+    for (const BodyReference body : bodies) bodies.removeObject(body.getId());
+    EXPECT_TRUE(bodies.isEmpty());
+    EXPECT_EQ(visited(bodies), Numbers{});
+}
+
 TEST(Clump, hasItsMassInFieldsAndAtPlanes) {
     constexpr double r = 1e-3, speed = 0.5;
     FewGrains<Smooth> scene(material(), {{.radius = r, .position = {0, 0, 0}}}, 1e-5);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "Kernel/Base/Host.h"
 #include "Kernel/CoarseGraining/Clusters.h"
 #include "Kernel/CoarseGraining/FieldFiles.h"
 #include "Kernel/CoarseGraining/FieldOutput.h"
@@ -37,7 +38,7 @@ py::dict fields(const PythonScene& scene, const std::string& coordinates, const 
         const PythonScene::WithoutPython others(scene);
         GrainState state;
         takeState(scene.scene(), state, content);
-        sums.add(state, scene.scene().getNumberOfThreads());
+        sums.add(state, scene.scene().getNumberOfThreads(), &askForInterruption);
     }
     py::dict made;
     std::vector<py::ssize_t> shape;
@@ -120,7 +121,7 @@ void bindFields(SceneClass& scene) {
              "each. Returns x_m, y_m, z_m of the points, and the fields by the names that they have in the "
              "files of write_fields(): an axis for each coordinate, then vectors and tensors. Stress is "
              "positive in compression; coordination counts touches with grains and walls, fabric those "
-             "with grains alone.")
+             "with grains alone. With contacts, call initialise() before the first run(). Ctrl-C ends it.")
         .def("mean_stress", &meanStressOf, py::arg("volume") = py::none(),
              comment("MeanStress",
                      "volume: m^3; that of the periodic box where it is not given. Returns total_Pa, "

@@ -9,7 +9,7 @@ int axisOf(const py::object& axis) {
     const std::string name = py::str(axis);
     for (int k = 0; k < 3; ++k)
         if (name == std::string(1, static_cast<char>('x' + k)) || name == std::to_string(k)) return k;
-    throw InputError("An axis is 'x', 'y' or 'z', or 0, 1 or 2; it is " + name + ".");
+    refuseGiven(axis, "An axis", "'x', 'y' or 'z', or 0, 1 or 2");
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ FunctionOfC calledBefore = nullptr;
 struct Known {
     std::string name;
     py::handle attribute;  // that it sets
+    bool isMethod = false;
     py::handle function{};
 };
 /// By the object that C hands on, which lives as long as the module.
@@ -57,28 +58,43 @@ std::string quotedSignature(std::string_view help) {
     return fmt::format("{}({}", own.substr(self.size(), end - self.size()), own.substr(rest, arrow - rest));
 }
 
+/// Said as it is, unless the sentence of Package/_arguments.py is better: of vectorOf(), and of memory.
+bool isKept(const std::string& said) { return said.starts_with("A vector must be ") || said == outOfMemory; }
+
 /// The sentence; null where the error is not of the arguments. By that pybind11 then quotes the signature:
 /// its words change with its version, and what a function that is called raises has no such part.
 PyObject* sentenceFor(const Known& of, const std::string& said, PyObject* arguments, PyObject* named) {
     const auto help = py::reinterpret_steal<py::object>(PyObject_GetAttrString(of.function.ptr(), "__doc__"));
     if (!help) return nullptr;
     const std::string quoted = quotedSignature(textOf(help.ptr()));
-    const bool isOfVector = said.starts_with("A vector must be ");  // by vectorOf()
-    if (!isOfVector && (quoted.empty() || said.find(quoted) == std::string::npos)) return nullptr;
-    const py::object kept = isOfVector ? py::object(py::str(said)) : py::none();
+    if (!isKept(said) && (quoted.empty() || said.find(quoted) == std::string::npos)) return nullptr;
+    const py::object kept = isKept(said) ? py::object(py::str(said)) : py::none();
     const py::object byName = named ? py::reinterpret_borrow<py::object>(named) : py::dict();
     return PyObject_CallFunction(explain.ptr(), "OsOOOO", kept.ptr(), of.name.c_str(), help.ptr(), arguments,
                                  byName.ptr(), of.attribute ? of.attribute.ptr() : Py_None);
 }
 
+/// Whether a method is called of None, for which pybind11 may hand a null pointer on.
+bool isOfNone(PyObject* self, PyObject* arguments) {
+    if (PyTuple_GET_SIZE(arguments) == 0 || PyTuple_GET_ITEM(arguments, 0) != Py_None) return false;
+    const auto of = known().find(self);
+    return of != known().end() && of->second.isMethod;
+}
+
 PyObject* callAndExplain(PyObject* self, PyObject* arguments, PyObject* named) {
+    if (isOfNone(self, arguments)) {
+        const std::string text = known().find(self)->second.name + " is of an object, and None has it not.";
+        PyErr_SetString(PyExc_TypeError, text.c_str());
+        return nullptr;
+    }
     PyObject* const answer = calledBefore(self, arguments, named);
     if (answer || !explain) return answer;
     PyObject *type = nullptr, *value = nullptr, *trace = nullptr;
     PyErr_Fetch(&type, &value, &trace);
     const auto of = known().find(self);
     const bool mayBe = PyErr_GivenExceptionMatches(type, PyExc_TypeError) ||
-                       PyErr_GivenExceptionMatches(type, PyExc_ValueError);
+                       PyErr_GivenExceptionMatches(type, PyExc_ValueError) ||
+                       PyErr_GivenExceptionMatches(type, PyExc_MemoryError);
     const auto said = py::reinterpret_steal<py::object>(mayBe && value ? PyObject_Str(value) : nullptr);
     if (of != known().end() && said)
         if (PyObject* const sentence = sentenceFor(of->second, textOf(said.ptr()), arguments, named)) {
@@ -100,7 +116,7 @@ void explainOne(py::handle function, const Known& of) {
     if (!self || record->ml_flags != (METH_VARARGS | METH_KEYWORDS) || record->ml_meth == ours) return;
     calledBefore = reinterpret_cast<FunctionOfC>(reinterpret_cast<void (*)()>(record->ml_meth));
     record->ml_meth = ours;
-    known().emplace(self, Known{of.name, of.attribute, function});
+    known().emplace(self, Known{of.name, of.attribute, of.isMethod, function});
 }
 
 void explainClass(py::handle type) {
@@ -108,9 +124,9 @@ void explainClass(py::handle type) {
     for (const auto& [key, member] : py::dict(type.attr("__dict__"))) {
         const std::string name = py::str(key);
         if (py::isinstance(member, reinterpret_cast<PyObject*>(&PyProperty_Type))) {
-            explainOne(member.attr("fset"), {name, member});
-            explainOne(member.attr("fget"), {name, {}});
-        } else explainOne(member, {name == "__init__" ? own : name, {}});
+            explainOne(member.attr("fset"), {name, member, true});
+            explainOne(member.attr("fget"), {name, {}, true});
+        } else explainOne(member, {name == "__init__" ? own : name, {}, true});
     }
 }
 

@@ -15,6 +15,7 @@
 #include "Tools/Python/Bindings.h"
 #include "Tools/Python/ExplainArguments.h"
 #include "Tools/Python/MoreSpecies.h"
+#include "Tools/Python/Unmade.h"
 
 /// The module pendular._kernel.
 
@@ -50,10 +51,14 @@ void loadSpecies(const std::filesystem::path& library) {
 }
 
 /// A sentence of the kernel with names as they are in Python: setPeriodic() is set_periodic(), a field
-/// slidingStiffness is sliding_stiffness, and species have no ending. Words of paths and in quotes stay.
+/// slidingStiffness is sliding_stiffness, and species have no ending. Words of paths and in quotes stay. What
+/// a user has given may have lines; a sentence has one.
 std::string inPython(std::string sentence) {
+    static const std::regex lines(R"(\s*[\r\n]\s*)");
+    sentence = std::regex_replace(sentence, lines, " ");
     for (const auto& [name, known] :
-         {std::pair{"runTo()", "run()"},
+         {std::pair{"runTo() or runSteps()", "run()"},
+          {"runTo()", "run()"},
           {"runSteps()", "run()"},
           {"solve()", "run()"},
           {"finishRun()", "finish()"},
@@ -112,13 +117,17 @@ void registerOtherErrors() {
                 PyExc_TypeError,
                 "A value in an argument, or what a function has returned, is of another type than is "
                 "asked for here.");
+        } catch (const std::bad_alloc&) {
+            PyErr_SetString(PyExc_MemoryError, outOfMemory);
+        } catch (const std::length_error&) {  // more elements than a vector can have
+            PyErr_SetString(PyExc_MemoryError, outOfMemory);
         } catch (const std::filesystem::filesystem_error& error) {
             PyErr_SetString(PyExc_OSError, sentenceOf(error).c_str());
         }
     });
 }
 
-/// Ctrl-C while grains are inserted: the interpreter is asked for it every 20 ms.
+/// Ctrl-C in functions that take long, as insert() and fields(): the interpreter is asked for it every 20 ms.
 void raiseInterrupt() {
     using Clock = std::chrono::steady_clock;
     thread_local Clock::time_point last;
@@ -201,6 +210,7 @@ PYBIND11_MODULE(_kernel, module) {
         "_fail_on_ranks", [](const std::string& sentence) { failOnRanks(sentence); }, py::arg("sentence"));
     module.def("_stop_all", &PythonScene::stopAll);
     module.def("_set_log", &setLog, py::arg("function"));
+    refuseUnmadeObjects(module);
     explainArguments(module);  // of all that is bound above
 }
 

@@ -367,7 +367,7 @@ class type_caster<pendular::python::PythonScene> : public type_caster_base<pendu
 
 public:
     bool load(handle source, bool convert) {
-        if (!type_caster_base::load(source, convert)) return false;
+        if (!source || source.is_none() || !type_caster_base::load(source, convert)) return false;
         static_cast<Scene*>(value)->requireThisThread();
         return true;
     }

@@ -54,6 +54,7 @@ _KINDS: Dict[str, Tuple[Callable[[Any], bool], str]] = {
 _PARTS = {"List": "a list", "Sequence": "a list", "Dict": "a dict", "Tuple": "a tuple"}
 # Names of functions that methods of the package call.
 _CALLED_BY = {"_run_to": "run", "_run_steps": "run"}
+_NO_MEMORY = "There is not enough memory."  # of ExplainArguments.h
 _UNIT = r"(?:1|s|m|kg|N|K|Pa|J|W|rad)(?:\^\d)?"
 
 
@@ -145,6 +146,14 @@ def _fault_of_values(name: str, of_call: List[Tuple[Argument, Any]]) -> str:
     return ""
 
 
+def _no_memory(name: str, given: Tuple[Any, ...], named: Dict[str, Any], takes: List[Argument]) -> str:
+    """Of numbers it says which."""
+    values = {**dict(zip([a.name for a in takes if a.kind], given)), **named}
+    numbers = [f"{key} = {_shown(value)}" for key, value in values.items()
+               if not isinstance(value, bool) and np.ndim(value) == 0 and _is_number(value)]
+    return f"{name}() has not enough memory for {' and '.join(numbers) or 'what it makes'}; ask for less."
+
+
 def explain(said: Optional[str], name: str, doc: str, given: Tuple[Any, ...], named: Dict[str, Any], attribute: Any) -> str:
     """The sentence.
 
@@ -157,6 +166,8 @@ def explain(said: Optional[str], name: str, doc: str, given: Tuple[Any, ...], na
         if not given or not _takes(takes[0].kind, given[0]):
             return f"{name} is of {_words(takes[0].kind)}, and nothing else has it."
         takes, given = takes[1:], given[1:]
+    if said == _NO_MEMORY:
+        return _no_memory(name, given, named, takes)
     if attribute is not None:
         return _wrong_kind(name, takes[-1], given[-1], _unit(attribute))
     fault = _fault(name, takes, given, named) if found else ""
