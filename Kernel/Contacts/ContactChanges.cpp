@@ -313,7 +313,6 @@ ChangedContacts ContactSystem::computeChanged(Grains& grains, const ChangedBodie
 
 /// Whether something needs the forces of held grains on a wall.
 static bool needsHeld(const Wall& wall) {
-    if (wall.isRemoved()) return false;
     if (wall.keepsForces() || wall.membrane() != nullptr) return true;
     const auto* const worn = dynamic_cast<const WornWall*>(&wall);
     return worn != nullptr && worn->keepsWear();
@@ -323,20 +322,18 @@ ListedOfHeld ContactSystem::askedOfHeld() const {
     ListedOfHeld asked;
     if (heldContacts == HeldContacts::None) return asked;
     asked.pairs = heldContacts == HeldContacts::All || partsNeedHeld;
-    asked.walls.resize(walls->getSize());
-    for (std::size_t w = 0; w < walls->getSize(); ++w)
-        if (const Wall& wall = walls->getObject(w); !wall.isRemoved())
-            asked.walls[w] = asked.pairs || needsHeld(wall);
+    for (const auto& [number, wall] : walls->present())
+        if (asked.pairs || needsHeld(*wall)) asked.walls.push_back(number);
     return asked;
 }
 
 bool ContactSystem::needsOtherHeld(const Grains& grains) {
     // All or none does not change by itself, and walls that are added or removed ask for a list anyway.
     const bool followsWalls = heldContacts == HeldContacts::WhereAsked && !partsNeedHeld;
-    bool others = heldIsNew;
-    for (std::size_t w = 0; !others && followsWalls && w < ofHeld.walls.size() && w < walls->getSize(); ++w)
-        others = ofHeld.walls[w] != needsHeld(walls->getObject(w));
-    if (!others) return false;
+    const auto isOther = [&](const PresentWall& wall) {
+        return ofHeld.atWall(wall.number) != needsHeld(*wall.object);
+    };
+    if (!heldIsNew && !(followsWalls && std::ranges::any_of(walls->present(), isOther))) return false;
     if (std::ranges::any_of(grains.translation, isHeld)) return true;
     ofHeld = askedOfHeld();
     heldIsNew = false;

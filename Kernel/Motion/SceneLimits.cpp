@@ -19,14 +19,8 @@
 
 namespace pendular {
 
-std::size_t numberOfWalls(const WallHandler& walls) {
-    std::size_t count = 0;
-    for (std::size_t w = 0; w < walls.getSize(); ++w) count += walls.isRemoved(w) ? 0 : 1;
-    return count;
-}
-
 std::size_t mostContacts(std::size_t grains, const WallHandler& walls) {
-    return std::clamp<std::size_t>(grains + 3 * numberOfWalls(walls), 2, contactsInDensestBed + 1) - 1;
+    return std::clamp<std::size_t>(grains + 3 * walls.present().size(), 2, contactsInDensestBed + 1) - 1;
 }
 
 /// The contacts for which the mass of a piston is checked: before its first step a guess, a full layer; then
@@ -126,24 +120,22 @@ static double membraneLimit(const ContactLaws& species, const GrainSizes& grains
 /// Throws InputError if the time step (s) is above this limit of a membrane.
 static void checkMembranes(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                            double timeStep, const Integrator& integrator) {
-    for (std::size_t w = 0; w < walls.getSize(); ++w)
-        if (const double limit = membraneLimit(species, grains, walls.getObject(w), integrator);
-            timeStep > limit)
+    for (const auto& [number, wall] : walls.present())
+        if (const double limit = membraneLimit(species, grains, *wall, integrator); timeStep > limit)
             throw InputError(fmt::format(
                 "wall {}, a membrane: its springs and hinges (squared frequency up to {:.4g} 1/s^2) and the "
                 "grains that touch its lightest vertex ({:.4g} kg) do not bear a time step of {:.6g} s; it "
                 "must be at most {:.6g} s, or the net coarser, heavier or softer, unless "
                 "acceptUnstableTimeStep() is called.",
-                w, walls.getObject(w).membrane()->squaredFrequency(),
-                walls.getObject(w).membrane()->lightestVertex(), timeStep, limit));
+                number, wall->membrane()->squaredFrequency(), wall->membrane()->lightestVertex(), timeStep,
+                limit));
 }
 
 /// The sum of these rows of all walls: a grain may touch several.
 static WallResponse pistonRows(const ContactLaws& species, const GrainSizes& grains,
                                const WallHandler& walls) {
     WallResponse sum;
-    for (std::size_t w = 0; w < walls.getSize(); ++w)
-        sum = sum + pistonRow(species, grains, walls.getObject(w));
+    for (const PresentWall& wall : walls.present()) sum = sum + pistonRow(species, grains, *wall.object);
     return sum;
 }
 
@@ -165,9 +157,9 @@ double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains,
     const std::size_t contacts = mostContacts(grains.count, walls);
     double limit = infinity;
     WallResponse response = ofWalls;
-    for (std::size_t w = 0; w < walls.getSize(); ++w) {
-        limit = std::min(limit, membraneLimit(species, grains, walls.getObject(w), integrator));
-        response.shift = response.shift + membraneRow(species, grains, walls.getObject(w));
+    for (const PresentWall& wall : walls.present()) {
+        limit = std::min(limit, membraneLimit(species, grains, *wall.object, integrator));
+        response.shift = response.shift + membraneRow(species, grains, *wall.object);
     }
     forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
         limit = std::min(limit,
@@ -220,9 +212,8 @@ void checkPistons(const ContactLaws& species, const GrainSizes& grains, const Wa
     const WallResponse all = pistonRows(species, grains, walls);
     if (timeStep <= limitOf(all) || timeStep > limitOf({})) return;
     std::vector<std::size_t> pistons;
-    for (std::size_t w = 0; w < walls.getSize(); ++w)
-        if (const Wall& wall = walls.getObject(w); wall.body() || (wall.drive() && wall.drive()->isPiston()))
-            pistons.push_back(w);
+    for (const auto& [number, wall] : walls.present())
+        if (wall->body() || (wall->drive() && wall->drive()->isPiston())) pistons.push_back(number);
     const auto rowOf = [&](std::size_t w) { return pistonRow(species, grains, walls.getObject(w)); };
     const std::size_t lightest =
         *std::ranges::min_element(pistons, {}, [&](std::size_t w) { return limitOf(rowOf(w)); });
@@ -253,12 +244,12 @@ double shortestHalfPeriod(const ContactLaws& species, const GrainSizes& grains, 
     forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
         shortest = std::min(shortest, halfPeriod(laws, bodies, mass));
     });
-    for (std::size_t w = 0; w < walls.getSize(); ++w) {
-        const double mobility = walls.isRemoved(w) ? 0 : mobilityOfWall(walls.getObject(w));
+    for (const PresentWall& wall : walls.present()) {
+        const double mobility = mobilityOfWall(*wall.object);
         if (!(mobility > 0)) continue;
         for (std::size_t s = 0; s < grains.free.size(); ++s) {
             if (grains.free[s].empty()) continue;
-            const PairLaws laws{species, static_cast<int>(s), walls.getObject(w).getSpeciesIndex()};
+            const PairLaws laws{species, static_cast<int>(s), wall.object->getSpeciesIndex()};
             for (const double radius : {grains.free[s].smallest, grains.free[s].largest}) {
                 const double mass = species.massOf(s, radius);
                 shortest = std::min(shortest, halfPeriod(laws, Bodies{radius, infinity}, mass) /
@@ -278,9 +269,8 @@ double mobilityOfWall(const Wall& wall) {
 double limitOfMovedWalls(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                          const Integrator& integrator) {
     double limit = infinity;
-    for (std::size_t w = 0; w < walls.getSize(); ++w) {
-        const Wall& wall = walls.getObject(w);
-        if (walls.isRemoved(w)) continue;
+    for (const PresentWall& present : walls.present()) {
+        const Wall& wall = *present.object;
         limit = std::min(limit, membraneLimit(species, grains, wall, integrator));
         if (!(mobilityOfWall(wall) > 0)) continue;
         const SpringAndDashpot row = pistonRow(species, grains, wall).shift;
@@ -301,10 +291,9 @@ double stepOfFastestPair(const ContactLaws& species, const GrainSizes& grains, c
 
 void checkScene(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                 double timeStep, const Integrator& integrator) {
-    for (std::size_t w = 0; w < walls.getSize(); ++w)
-        if (!walls.isRemoved(w))
-            requireOwnSpecies(species, fmt::format("wall {}", w), walls.getObject(w).getSpeciesIndex(),
-                              walls.getObject(w).getSpeciesOwner());
+    for (const auto& [number, wall] : walls.present())
+        requireOwnSpecies(species, fmt::format("wall {}", number), wall->getSpeciesIndex(),
+                          wall->getSpeciesOwner());
     forEachExtremePair(
         species, grains, walls,
         [](const PairLaws& laws, const Bodies& bodies, double) {

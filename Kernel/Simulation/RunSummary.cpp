@@ -105,7 +105,7 @@ void addRun(SummaryRows& rows, const Scene& scene) {
     rows.add("grains", scene.particleHandler.getSize());
     if (const std::size_t bodies = scene.particleHandler.store().bodies.size(); bodies > 0)
         rows.add("rigid bodies", bodies);
-    rows.add("walls", numberOfWalls(scene.wallHandler));
+    rows.add("walls", scene.wallHandler.present().size());
     const Vec3D g = scene.getGravity();
     rows.add("gravity", fmt::format("{} {} {}", g.x(), g.y(), g.z()), "m/s^2");
 }
