@@ -116,9 +116,9 @@ private:
         double conductivity;  // W/(m K); infinite
     };
 
-    struct GivenByWall {
-        double sum = 0;   // J, since the start
-        ExactSum ofStep;  // J
+    struct HeatOfWall {
+        int wall;       // its number
+        ExactSum heat;  // J
     };
 
     void setMaterialOf(int species, const HeatMaterial& material);
@@ -148,7 +148,8 @@ private:
     GrainColumnReference temperatures;
     std::map<int, HeatMaterial> materials;  // by species
     std::map<int, HeldWall> heldWalls;      // by number
-    std::map<int, GivenByWall> byWalls;     // by number, also of those that are held no more
+    std::map<int, double> byWalls;          // J, since the start, by number, also of those held no more
+    std::vector<HeatOfWall> ofStep;         // of the held walls that are there, by number
     const ContactLaws* laws = nullptr;      // of the scene, once it is set up
     Conduction conduction = Conduction::Constriction;
     double radiusFactor = 1;  // of contact radii
