@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds and tests the committed state of this repository on a bare Debian 12 (bookworm) or 13 (trixie), as a newcomer
 # does. debootstrap makes the bare system in a folder, and all commands run in that folder (chroot). Needs root and
-# the permission to mount. It ends at the first stage that fails, and then says what each stage took.
+# the permission to mount. It ends at the first stage that fails, and prints the time of each stage.
 #   Tools/build-on.sh [bookworm|trixie] [--stages "first python server ranks tests"] [--jobs 2]      default: trixie
 # --stages NAMES    which stages, in this order:
 #                   first    the commands of README, "A first simulation", as they are

@@ -14,7 +14,7 @@ print_stages() {
 }
 trap print_stages EXIT
 
-# In processor: the seconds of all commands that have ended. Not printed: a shell of its own would see only its own.
+# In processor: the seconds of all commands that have ended. Not printed: a subshell would have its own times only.
 read_processor() {
     times >"$stageClock"
     processor=$(awk 'NR == 2 { gsub("[ms]", " "); printf "%.0f", 60 * $1 + $2 + 60 * $3 + $4 }' "$stageClock")

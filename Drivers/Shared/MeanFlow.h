@@ -19,8 +19,8 @@ struct MeanFlow {
 /// The flow of a curve of time (s) and mass that has come out (kg), in the order of time. The error is that
 /// of the mean of twenty batches, windows of equal numbers of intervals (of as many as there are, if fewer):
 /// s over the root of their number. A line of least squares through the mass has 6/5 of this variance, and
-/// takes its own residuals, which follow each other, for independent: the error that it claims is far too
-/// small. Throws InputError with fewer than two points.
+/// its residuals are correlated in time, so the standard error of the fit is far too small. Throws InputError
+/// with fewer than two points.
 inline MeanFlow meanFlow(std::span<const CurvePoint> curve) {
     if (curve.size() < 2 || !(curve.back().x > curve.front().x))
         throw InputError("A flow needs two points of the discharge at least, at different times.");

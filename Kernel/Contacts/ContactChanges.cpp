@@ -15,6 +15,10 @@ namespace pendular {
 
 static bool isHeld(const TranslationRecord& grain) { return grain.inverseMass == 0 && grain.radius > 0; }
 
+bool ContactSystem::areHeldAmong(const Grains& grains) {
+    return std::ranges::any_of(grains.translation, isHeld);
+}
+
 double ContactSystem::renew(Grains& grains, bool hasNewLaws) {
     double stored = 0;
     const ListedOfHeld asked = askedOfHeld();
@@ -40,7 +44,7 @@ double ContactSystem::renew(Grains& grains, bool hasNewLaws) {
     return stored;
 }
 
-/// The bridge of a contact forgets how the bodies moved if a change has put them somewhere else.
+/// Resets the gap velocity of a contact's bridge where a change has put the bodies somewhere else.
 void ContactSystem::checkGap(const Grains& grains, const Bucket& bucket, std::uint32_t contact) {
     const std::size_t slot = contacts.slotOf(contact);
     const ObservedContact seen = observe(grains, bucket, contact);
@@ -175,7 +179,7 @@ static void addUntouchedOfHeld(const ContactStore& contacts, const ParticleStore
 
 namespace {
 
-/// What a block of contacts has and remembers, to be given back to some of them.
+/// The records and the history of a block of contacts, to be given back to some of them.
 class KeptBlock {
 public:
     KeptBlock(const ContactStore& contacts, std::size_t block)
@@ -328,13 +332,16 @@ ListedOfHeld ContactSystem::askedOfHeld() const {
 }
 
 bool ContactSystem::needsOtherHeld(const Grains& grains) {
-    // All or none does not change by itself, and walls that are added or removed ask for a list anyway.
+    if (!hasHeld) return false;
+    // All or none does not change by itself, and adding or removing walls rebuilds the list anyway.
     const bool followsWalls = heldContacts == HeldContacts::WhereAsked && !partsNeedHeld;
     const auto isOther = [&](const PresentWall& wall) {
-        return ofHeld.atWall(wall.number) != needsHeld(*wall.object);
+        const bool isListed = ofHeld.atWall(wall.number);  // membranes and walls that wear are so for good
+        return wall.object->keepsForces() != isListed && needsHeld(*wall.object) != isListed;
     };
     if (!heldIsNew && !(followsWalls && std::ranges::any_of(walls->present(), isOther))) return false;
-    if (std::ranges::any_of(grains.translation, isHeld)) return true;
+    // They may have gone, which a rank knows of its own grains only.
+    if (allRanks.areSeveral() || areHeldAmong(grains)) return true;
     ofHeld = askedOfHeld();
     heldIsNew = false;
     return false;
@@ -342,8 +349,10 @@ bool ContactSystem::needsOtherHeld(const Grains& grains) {
 
 void ContactSystem::renewHeldMasses(const Grains& grains) {
     heldMasses.clear();
-    if (!ofHeld.any()) return;
-    if (std::ranges::none_of(grains.translation, isHeld)) return;
+    // Ranks that share the scene had all grains at first, and all of those that have come.
+    const bool areHere = areHeldAmong(grains);
+    hasHeld = areHere || (sharing && hasHeld);
+    if (!areHere || !ofHeld.any()) return;
     const GrainMasses masses(grains, *species);
     heldMasses.resize(grains.size());
     for (std::uint32_t place = 0; place < grains.size(); ++place)

@@ -188,7 +188,7 @@ private:
         Vector<Pack> leverless;  // N, n x F; zero without friction
         Pack normalForce;        // N
     };
-    /// What eight contacts remember before and after their creep in the step.
+    /// The normal history of eight contacts before and after their creep in the step.
     struct Creep {
         NormalHistory<Pack> before, after;
     };

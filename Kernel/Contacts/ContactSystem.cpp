@@ -206,6 +206,7 @@ void ContactSystem::beginArrival(Grains& grains) {
 void ContactSystem::finishArrival(Grains& grains) {
     arrived += grains.nextIdentity() - firstToCome;
     sharing->expectOnAll(firstToCome);
+    hasHeld = hasHeld || areHeldAmong(grains);  // before they go to their owners
     rangeOfAll = std::max(rangeOfAll, allRanks.largest(largestRange(*species, grains)));
     const std::shared_ptr<RememberedContacts> remembered = std::exchange(arriving, nullptr);
     distribute(grains, *remembered, 0);
@@ -315,6 +316,7 @@ bool ContactSystem::takeIn(const Grains& grains, std::span<const std::uint32_t> 
     for (const std::uint32_t identity : late) {
         const TranslationRecord& grain = grains.translation[grains.place[identity]];
         lateSpheres.push_back({grain.position, grain.radius});
+        hasHeld |= grain.inverseMass == 0;
     }
     for (std::size_t k = late.size() - identities.size(); k < late.size(); ++k) {
         const double gap = gapAround(grains, k);

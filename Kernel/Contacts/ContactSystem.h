@@ -90,7 +90,7 @@ public:
     /// @param step s, of the step that comes
     ChangedContacts computeChanged(Grains& grains, const ChangedBodies& changed, double step,
                                    ContactTiming timing);
-    /// Which contacts of bodies that are held along all axes are listed; asked for from the next list on.
+    /// Which contacts of bodies that are held along all axes are listed, from the next list rebuild on.
     void setHeldContacts(HeldContacts which) {
         heldIsNew |= which != heldContacts;
         heldContacts = which;
@@ -99,7 +99,10 @@ public:
     /// A part of the step needs them: all are listed, unless the scene has None.
     void askForHeldContacts() { partsNeedHeld = true; }
     [[nodiscard]] const ListedOfHeld& listedOfHeld() const { return ofHeld; }
-    /// Whether others are asked for than are listed.
+    /// Whether there were grains that are held along all axes, on any rank, when the contacts were listed.
+    [[nodiscard]] bool hasHeldGrains() const { return hasHeld; }
+    /// Whether contacts of held bodies are needed that are not listed, or the reverse: the same on all ranks
+    /// where their settings are the same.
     [[nodiscard]] bool needsOtherHeld(const Grains& grains);
     /// Brings grains back into a periodic scene whose walls have ends that were put outside between two
     /// steps: their contacts at walls go on at what the walls have behind the face. Before renew().
@@ -420,6 +423,7 @@ private:
     /// @param share 1 or -1
     void changeForce(Grains& grains, const Bucket& bucket, std::uint32_t contact, double share) const;
     void renewHeldMasses(const Grains& grains);
+    [[nodiscard]] static bool areHeldAmong(const Grains& grains);
     [[nodiscard]] ListedOfHeld askedOfHeld() const;
     void computeAmong(const Grains& grains, const std::vector<bool>& isChanged, double step,
                       ContactTiming timing);
@@ -502,11 +506,14 @@ private:
     std::vector<CapillaryWatch> capillaryWatches;
     HeldContacts heldContacts = HeldContacts::WhereAsked;
     bool partsNeedHeld = false, heldIsNew = false;
-    ListedOfHeld ofHeld;                         // in the present list
-    std::vector<double> heldMasses;              // kg, of all grains; none where no contacts of held ones are
-    std::vector<std::vector<double>> lawValues;  // of each pair of species, as they were prepared
+    bool hasHeld = false;            // some grain is held, or was since the list; on ranks: since set-up
+    ListedOfHeld ofHeld;             // in the present list
+    std::vector<double> heldMasses;  // kg, of all grains; none where no contacts of held ones are
+    // As noteChangedLaws() found them last, by pairs of species (in both orders): the fields that are set of
+    // a species, as the pair with itself, and of a pair that has values of its own; other pairs have none.
+    std::vector<std::vector<double>> lawValues;
     // Since computeChanged() was called last:
-    std::vector<bool> changedPairs;  // of species, as of lawValues
+    std::vector<bool> changedPairs;  // by pairs of species, as lawValues: whether their laws are others
     std::vector<bool> changedWalls;  // that have another species
 };
 

@@ -10,7 +10,7 @@
 
 namespace pendular {
 
-/// What contacts need to know of grains that are held.
+/// Data of held grains for the computation of contacts.
 struct HeldInContacts {
     const HeldBits* axes = nullptr;  // of all grains; null where none is held along some axes
     /// kg, of all grains; null unless contacts between bodies that are held along all axes are listed

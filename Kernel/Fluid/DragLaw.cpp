@@ -1,7 +1,11 @@
 #include "Kernel/Fluid/DragLaw.h"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "Kernel/Base/InputError.h"
@@ -14,6 +18,23 @@ namespace pendular {
 void compareFluid(StateArchive& archive, const FluidMaterial& fluid) {
     for (const auto& field : FluidMaterial::fields())
         archive.same(field.name, fluid.*field.member, field.unit);
+}
+
+// Of each Reynolds number by itself: what differs is found to 1e-9 of the largest of its row.
+void compareDragLaw(StateArchive& archive, const DragLaw& law, const FluidMaterial& fluid) {
+    archive.same("law", law.name);
+    archive.sameRecord<double>("lawHolds",
+                               std::array{law.porosity.lowest, law.porosity.highest, law.highestReynolds});
+    constexpr double diameter = 1e-3;  // m
+    for (const double reynolds : reynoldsOfComparison) {
+        std::vector<double> resistances;  // kg/s
+        for (const double porosity : porositiesOfComparison) {
+            const double slip = reynolds * fluid.viscosity / (fluid.density * porosity * diameter);
+            resistances.push_back(law.resistance({porosity, slip, diameter, fluid}));
+        }
+        archive.sameValues(fmt::format("resistanceAtRe{:g}", reynolds), std::move(resistances),
+                           "kg/s at porosities from 0.35 to 1");
+    }
 }
 
 using std::numbers::pi;

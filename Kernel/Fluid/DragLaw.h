@@ -55,6 +55,16 @@ struct DragLaw {
     std::string_view source;
 };
 
+/// The states at which a restart compares a law of the driver's own, which may have changed under its name:
+/// all of these porosities with all of these Reynolds numbers, for a grain of 1 mm in the fluid of the scene.
+/// A law is asked from lowestPorosityOfDrag to 1; laws of the kernel hold up to Re = 1e5 at most. By
+/// dimensions a law depends on these two numbers only. None is at 0.8, or at Re = 1 or 1000, where laws jump:
+/// the last digit would choose the side.
+inline constexpr std::array porositiesOfComparison{0.35, 0.4, 0.45, 0.5, 0.6, 0.7, 0.85, 0.95, 1.0};
+inline constexpr std::array reynoldsOfComparison{0.0, 0.03, 0.3, 3.0, 30.0, 300.0, 3e3, 3e4, 1.5e5};
+/// Refuses a restart file of another law.
+void compareDragLaw(StateArchive& archive, const DragLaw& law, const FluidMaterial& fluid);
+
 /// All of them.
 [[nodiscard]] std::span<const DragLaw> dragLaws();
 /// Throws InputError, with the nearest of the names that there are, for one that is not.

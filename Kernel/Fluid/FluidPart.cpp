@@ -196,7 +196,7 @@ void FluidPart::beforeMotion(StepContext& step) {
 }
 
 /// The share of the step's end. The accelerations that the end makes of the contacts are without the fluid,
-/// which is asked anew in the next step.
+/// which is computed anew in the next step.
 void FluidPart::accelerate(StepContext& step) {
     if (step.length == 0) return;
     ParticleStore& grains = step.grains();
@@ -238,10 +238,7 @@ void FluidPart::compareSetUp(StateArchive& archive, StepContext& scene) {
     archive.sameRecord<double>("highest", cells.highest, "m");
     archive.sameRecord<std::int32_t>("cells", cells.cells);
     compareFluid(archive, fluid);
-    archive.same("law", law.name);
-    // A law of the driver's own may have changed under its name.
-    archive.sameValues("resistance", {law.resistance({0.5, 0.1, 1e-3, fluid})},
-                       "kg/s at a porosity of 0.5, 0.1 m/s and 1 mm");
+    compareDragLaw(archive, law, fluid);
     archive.same("model", model == PressureModel::A ? "A" : "B");
     archive.group("host", [&] { host->compareSetUp(archive, scene.time); });
 }

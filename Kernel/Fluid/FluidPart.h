@@ -37,8 +37,9 @@ struct FluidLedger {
 /// step: that of the velocity
 ///     v' = (v + k u + dt (F_p/m + a))/(1 + k),  k = dt resistance/m,
 /// which the grain will have with the acceleration a by all that acts on it besides; it is stable for any
-/// step. It acts from the start of the step to its end, as the forces of contacts do, so that contacts see
-/// the velocities of a grain that is pushed. The energy ledger books its work as given by the driver.
+/// step. It acts from the start of the step to its end, as the forces of contacts do, so that these are
+/// computed with the velocities of a grain that is pushed. The energy ledger books its work as given by the
+/// driver.
 class FluidPart : public StepPart {
 public:
     /// Throws InputError for a grid or a fluid that cannot be.

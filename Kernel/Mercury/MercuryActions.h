@@ -12,9 +12,9 @@ class ActsInSteps {
 public:
     virtual ~ActsInSteps() = default;
     virtual void act(StepContext& step) = 0;
-    /// What is set of it, as StepPart::compareSetUp() says.
+    /// Its settings, as in StepPart::compareSetUp().
     virtual void compareSetUp(StateArchive& archive, double now) const = 0;
-    /// What it remembers of a run.
+    /// Its state in a run.
     virtual void visitState(StateArchive& archive) = 0;
 };
 

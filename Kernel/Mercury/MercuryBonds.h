@@ -25,7 +25,7 @@ public:
     [[nodiscard]] bool needsFinishedStep() const override { return false; }
     void prepare(StepContext& step) override { give(step); }
     void afterForces(StepContext& step) override;
-    /// It has no settings: bonds are asked for in the run.
+    /// It has no settings: bonds are added in the run.
     void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}
     void visitState(StateArchive& archive, StepContext& scene) override;
 

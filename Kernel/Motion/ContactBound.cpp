@@ -90,7 +90,7 @@ ContactBound ContactBounds::find(const ContactSystem& contacts, const WallHandle
                                  const ParticleStore& grains, const Integrator& integrator,
                                  const ContactOutlook& outlook) {
     ContactBound found;
-    terms.clear(), shaped.clear(), wallSides.clear();
+    terms.clear(), shaped.clear(), wallSides.clear(), masses.reset();
     box = &contacts.periodicBox();
     shapes = contacts.laws().shapes();
     findBodies(grains);
@@ -308,7 +308,8 @@ void ContactBounds::takeAtWall(const ContactSystem& contacts, const Wall& wall, 
                                const ContactOutlook& outlook) {
     const std::uint32_t first = contacts.firstOf(begin);
     const TranslationRecord& grain = grains.translation[first];
-    if (!(grain.inverseMass > 0)) return;
+    const bool isFixed = !(grain.inverseMass > 0);
+    if (isFixed && !isMoved(bucket.wall)) return;
     parts.clear();
     for (std::size_t c = begin; c < end; ++c) parts.push_back(contacts.secondOf(c));
     points.assign(parts.size(), {});
@@ -330,8 +331,9 @@ void ContactBounds::takeAtWall(const ContactSystem& contacts, const Wall& wall, 
         term.approach = dot(grain.velocity - point.velocity, term.normal);
         term.smallerRadius = grain.radius;
         term.pair.bodies = bodies;
-        term.pair.effectiveMass = 1 / grain.inverseMass;
-        term.isHeld = grains.heldAt(first).areAlong();
+        if (isFixed) setFixed(contacts, grains, term);
+        else term.pair.effectiveMass = 1 / grain.inverseMass;
+        term.isHeld = !isFixed && grains.heldAt(first).areAlong();
         if (term.isHeld)
             term.pair.effectiveMass =
                 heldMass(term.normal, grain.inverseMass, grains.heldAt(first), 0, {}).effective;
@@ -339,6 +341,12 @@ void ContactBounds::takeAtWall(const ContactSystem& contacts, const Wall& wall, 
                  (0.5 * (grain.radius + point.distance)) * term.normal, term);
         keep(contacts, bucket, begin + k, term, outlook);
     }
+}
+
+void ContactBounds::setFixed(const ContactSystem& contacts, const ParticleStore& grains, Term& term) {
+    if (!masses) masses.emplace(grains, contacts.laws());
+    term.isFixed = true;
+    term.pair.effectiveMass = (*masses)(term.first);
 }
 
 /// If it acts, or is within reach.
@@ -418,7 +426,7 @@ void ContactBounds::press(const ContactLaws& laws, const Bucket& bucket, std::sp
 
 double ContactBounds::shareOf(const ParticleStore& grains, const Term& term, std::uint32_t place,
                               std::uint32_t other) const {
-    if (other == none) return 1 + weightAtWall(term);
+    if (other == none) return term.isFixed ? 1 : 1 + weightAtWall(term);
     const bool isShared = grains.translation[other].inverseMass > 0;
     return isShared ? 1 + weight(place, other) : 1;
 }

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Contacts/GrainMasses.h"
 #include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Motion/Integrator.h"
 #include "Kernel/Motion/MovedWall.h"
@@ -61,8 +63,9 @@ struct ContactBound {
 /// to which all of its contacts add, for the motions that it has: with the arm a from its centre, as of a
 /// rigid body. The vertices of a membrane have one each: with the weights w of a contact, which sum to 1,
 /// |sum w v|^2 <= sum w |v|^2, beside the bound of the net itself (MembraneNet::squaredFrequency). Of their
-/// dashpots nothing is implicit, because contacts take the mass of the grain alone for that. A servo has no
-/// mass, and a speed of its own (Kernel/Particles/Servo.h).
+/// dashpots nothing is implicit, because contacts take the mass of the grain alone for that. A grain that is
+/// held along all axes has no block, so that such a wall has the whole k of their contact (t infinite). A
+/// servo has no mass, and a speed of its own (Kernel/Particles/Servo.h).
 ///
 /// Of grains that are no spheres (GrainShapes), contacts are where they touch, and have the radius that they
 /// have there. Where they may be by the next choice is not known: a small turn brings the contact of a flat
@@ -101,6 +104,7 @@ private:
         double smallerRadius = 0;   // m
         bool drags = false;         // a bridge
         bool isHeld = false;        // one of the grains, along some axes
+        bool isFixed = false;       // the grain at a wall that forces move, along all axes
         std::uint32_t side = none;  // of wallSides, at a wall that forces move
     };
     /// The side of such a wall in a contact.
@@ -158,6 +162,8 @@ private:
     [[nodiscard]] ShapedTerm takeShapes(const ParticleStore& grains, const ShapedTouch& touch,
                                         const Vector<double>& shift, const Vector<double>& velocity,
                                         const ContactOutlook& outlook, Term& term) const;
+    /// Of a grain that is held along all axes, at a wall that forces move: the mass that its dashpots have.
+    void setFixed(const ContactSystem& contacts, const ParticleStore& grains, Term& term);
     [[nodiscard]] ShapedSide sideOf(const ParticleStore& grains, std::uint32_t place,
                                     const Vector<double>& arm, const Vector<double>& normal,
                                     const ContactOutlook& outlook) const;
@@ -201,12 +207,14 @@ private:
                                  std::uint32_t other) const;
     // Of walls that forces move (ContactBoundOfWalls.cpp):
     void findMovedWalls(const WallHandler& walls);
+    [[nodiscard]] bool isMoved(int wall) const;
     /// @param fromGrain m, from the grain's centre to the contact
     void takeSide(const Wall& wall, int number, std::uint32_t part, const Vector<double>& position,
                   const Vector<double>& fromGrain, Term& term);
     void chooseWeightsOfWalls(const ParticleStore& grains, const AllRanks& ranks);
     [[nodiscard]] double largestLoadOfWalls() const;
-    /// The weight of the grain in a contact with such a wall; 0 where the contact does not move the wall.
+    /// The weight of the grain in a contact with such a wall; 0 where the contact does not move the wall, and
+    /// infinite where it does not move the grain.
     [[nodiscard]] double weightAtWall(const Term& term) const;
     void addToWall(const Term& term);
     void addToVertices(const WallSide& side, const ContactStiffness& stiffness, double share);
@@ -242,7 +250,8 @@ private:
     std::vector<std::uint32_t> movers;  // of each place; empty without bodies
     std::vector<MovedWall> movedWalls;
     std::vector<WallSide> wallSides;
-    std::vector<double> loads;  // 1/s^2, sum of spring over mass: of the grains, then of the bodies
+    std::vector<double> loads;          // 1/s^2, sum of spring over mass: of the grains, then of the bodies
+    std::optional<GrainMasses> masses;  // where grains that are held carry such walls
     const PeriodicBox* box = nullptr;
     const GrainShapes* shapes = nullptr;  // null where grains are spheres
     // The parts of a wall that are near one grain, and their points.

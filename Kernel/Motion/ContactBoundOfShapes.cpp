@@ -65,6 +65,7 @@ void ContactBounds::takeShapeAtWall(const ContactSystem& contacts, const Wall& w
         Term term{.first = place, .second = none, .normal = point.normal};
         const ShapedTerm own =
             takeShapes(grains, touch, {0, 0, 0}, grains.translation[place].velocity - surface, outlook, term);
+        if (!(grains.translation[place].inverseMass > 0)) setFixed(contacts, grains, term);
         takeSide(wall, bucket.wall, parts[k], grains.translation[place].position, touch.arm1, term);
         keep(contacts, bucket, begin + k, term, outlook, &own);
     }

@@ -37,6 +37,10 @@ void ContactBounds::findMovedWalls(const WallHandler& walls) {
     }
 }
 
+bool ContactBounds::isMoved(int wall) const {
+    return std::ranges::find(movedWalls, wall, &MovedWall::number) != movedWalls.end();
+}
+
 void ContactBounds::takeSide(const Wall& wall, int number, std::uint32_t part, const Vector<double>& position,
                              const Vector<double>& fromGrain, Term& term) {
     const auto moved = std::ranges::find(movedWalls, number, &MovedWall::number);
@@ -127,6 +131,7 @@ double ContactBounds::largestLoadOfWalls() const {
 
 double ContactBounds::weightAtWall(const Term& term) const {
     if (term.side == none) return 0;
+    if (term.isFixed) return wallSides[term.side].load > 0 || wallSides[term.side].dashpot > 0 ? infinity : 0;
     const double own = loads[moverAt(term.first)], ofWall = wallSides[term.side].load;
     if (!(ofWall > 0)) return wallSides[term.side].dashpot > 0 ? 1 : 0;
     return own > 0 ? ofWall / own : 1;

@@ -27,6 +27,7 @@ GrainSizes::GrainSizes(const ParticleStore& grains, std::size_t speciesCount, co
     : count(grains.count()),
       all(speciesCount),
       free(speciesCount),
+      held(speciesCount),
       response(grains.bodies.response(grains)),
       hasBodies(!grains.bodies.empty()) {
     for (std::size_t k = 0; k < grains.ownSize(); ++k) {
@@ -41,7 +42,12 @@ GrainSizes::GrainSizes(const ParticleStore& grains, std::size_t speciesCount, co
         lowest = {std::min(lowest.x, at.x - r), std::min(lowest.y, at.y - r), std::min(lowest.z, at.z - r)};
         highest = {std::max(highest.x, at.x + r), std::max(highest.y, at.y + r),
                    std::max(highest.z, at.z + r)};
-        if (grain.inverseMass > 0) free[grains.species[k]].add(counted);
+        if (grain.inverseMass > 0) {
+            free[grains.species[k]].add(counted);
+            continue;
+        }
+        held[grains.species[k]].add(counted);
+        if (counted < grain.radius) held[grains.species[k]].add(grain.radius);
     }
     if (ranks.areSeveral()) addOfOthers(ranks);
     countHeldAlong(grains, ranks);
@@ -49,7 +55,7 @@ GrainSizes::GrainSizes(const ParticleStore& grains, std::size_t speciesCount, co
 
 void GrainSizes::addOfOthers(const AllRanks& ranks) {
     count = ranks.sum(count);
-    for (std::vector<SizeRange>* const ranges : {&all, &free}) {
+    for (std::vector<SizeRange>* const ranges : {&all, &free, &held}) {
         const std::vector<SizeRange> ofAll = ranks.gather(*ranges);
         const std::size_t species = ranges->size();
         ranges->assign(species, {});

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "Kernel/Particles/ParticleStore.h"
@@ -43,12 +44,13 @@ struct SizeRange {
     }
 };
 
-/// The sizes of the grains of each species: of all, and of those that are free to move. A block's count as
-/// free spheres of the mass that its contacts move.
+/// The sizes of the grains of each species: of all, of those that are free to move, and of those that are
+/// held along all axes. A block's count as free spheres of the mass that its contacts move.
 struct GrainSizes {
     std::size_t count = 0;  // of grains
-    std::vector<SizeRange> all, free;
-    BodyResponse response;  // of rigid bodies, which the stability limit counts with
+    std::vector<SizeRange> all, free, held;
+    bool heldCarryWalls = true;  // whether contacts of held grains with walls that forces move are listed
+    BodyResponse response;       // of rigid bodies, which the stability limit counts with
     bool hasBodies = false;
     Vector<double> lowest{infinity, infinity, infinity};  // m, of the box around all grains
     Vector<double> highest{-infinity, -infinity, -infinity};
@@ -56,14 +58,19 @@ struct GrainSizes {
     GrainSizes() = default;
     /// @param ranks that share the grains; none: all are here
     GrainSizes(const ParticleStore& grains, std::size_t speciesCount, const AllRanks& ranks = {});
+    /// The held grains on which a wall that forces move may rest.
+    [[nodiscard]] std::span<const SizeRange> carriers() const {
+        return heldCarryWalls ? std::span(held) : std::span<const SizeRange>();
+    }
     /// m; infinite without grains
     [[nodiscard]] double smallest() const;
     /// The grains that a plane can touch, at most: a hexagonal layer of the smallest ones over the shadow of
     /// the box around all.
     [[nodiscard]] double fullLayer(const Vector<double>& normal) const;
-    /// Whether a grain of this radius (m) is between others of its species.
+    /// Whether a grain of this radius (m) is between others of its species that are free or held as it is.
     [[nodiscard]] bool hold(std::size_t species, double radius, bool isFree) const {
-        return species < all.size() && all[species].holds(radius) && (!isFree || free[species].holds(radius));
+        return species < all.size() && all[species].holds(radius) &&
+               (isFree ? free : held)[species].holds(radius);
     }
 
 private:

@@ -41,46 +41,73 @@ static double touchesOf(const GrainSizes& grains, const Wall& wall) {
     return most(body, std::min(layer, 1 + 4 * std::numbers::pi / (2 * std::numbers::sqrt3) * wide * wide));
 }
 
-/// N/m, of the contacts of a wall with the grains, by a function of (ContactStiffness, Bodies).
+/// N/m, of the contacts of a wall with grains of these sizes, by a function of (ContactStiffness, Bodies).
 template <class Of>
-static SpringAndDashpot stiffestAt(const ContactLaws& species, const GrainSizes& grains, const Wall& wall,
-                                   Of&& of) {
+static SpringAndDashpot stiffestAt(const ContactLaws& species, std::span<const SizeRange> sizes,
+                                   const Wall& wall, Of&& of) {
     SpringAndDashpot stiffest;
-    for (std::size_t s = 0; s < grains.free.size(); ++s) {
-        if (grains.free[s].empty()) continue;
-        for (const double radius : {grains.free[s].smallest, grains.free[s].largest})
-            stiffest = larger(stiffest, of(species.stiffness(static_cast<int>(s), wall.getSpeciesIndex(),
-                                                             {radius, infinity}, species.massOf(s, radius)),
-                                           Bodies{radius, infinity}));
-    }
+    forEachAtWall(species, sizes, wall, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
+        stiffest = larger(stiffest, of(contactStiffness(laws, bodies, mass), bodies));
+    });
     return stiffest;
 }
-static SpringAndDashpot stiffestAt(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
-    return stiffestAt(species, grains, wall,
+static SpringAndDashpot stiffestAt(const ContactLaws& species, std::span<const SizeRange> sizes,
+                                   const Wall& wall) {
+    return stiffestAt(species, sizes, wall,
                       [](const ContactStiffness& contact, const Bodies&) { return contact.normal; });
 }
 
-/// The same of a wall that is a body, for all springs of a contact: by its mobility where it is touched, and
-/// the couples of rolling and torsion by how they turn it.
-static WallResponse bodyRow(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
-    const WallBody& body = *wall.body();
-    const SpringAndDashpot one =
-        stiffestAt(species, grains, wall, [&](const ContactStiffness& contact, const Bodies& bodies) {
-            return body.mobility() * larger(contact.normal, contact.sliding) +
-                   body.turningMobility() * squaredLeverOfRotation(bodies) *
-                       larger(contact.rolling, contact.torsion);
-        });
-    const SpringAndDashpot all = touchesOf(grains, wall) * one;
-    return {.shift = all, .spin = all};
+/// What a contact gives a wall that is a body, over its mass: all springs by its mobility where it is
+/// touched, and the couples of rolling and torsion by how they turn it.
+static SpringAndDashpot ofBody(const WallBody& body, const SpringAndDashpot& normal,
+                               const ContactStiffness& contact, const Bodies& bodies) {
+    return body.mobility() * larger(normal, contact.sliding) +
+           body.turningMobility() * squaredLeverOfRotation(bodies) * larger(contact.rolling, contact.torsion);
 }
 
-/// The springs and dashpots of a piston over its mass: n (k, c) / M for the n contacts that it can have, or
-/// has; zero for other walls.
-static WallResponse pistonRow(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
-    if (wall.body()) return bodyRow(species, grains, wall);
+/// The springs and dashpots of a wall that forces move over its mass, n (k, c) / M for the n contacts that it
+/// can have, or has, if all are with grains of these sizes; zero for other walls.
+static WallResponse rowAmong(const ContactLaws& species, const GrainSizes& grains,
+                             std::span<const SizeRange> sizes, const Wall& wall) {
+    if (const WallBody* const body = wall.body()) {
+        const SpringAndDashpot all =
+            touchesOf(grains, wall) *
+            stiffestAt(species, sizes, wall, [&](const ContactStiffness& contact, const Bodies& bodies) {
+                return ofBody(*body, contact.normal, contact, bodies);
+            });
+        return {.shift = all, .spin = all};
+    }
     const PlaneDrive* const drive = wall.drive();
     if (!drive || !drive->isPiston()) return {};
-    return {.shift = (touchesOf(grains, wall) / drive->asked.mass) * stiffestAt(species, grains, wall)};
+    return {.shift = (touchesOf(grains, wall) / drive->asked.mass) * stiffestAt(species, sizes, wall)};
+}
+static WallResponse pistonRow(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
+    const WallResponse ofFree = rowAmong(species, grains, grains.free, wall),
+                       ofHeld = rowAmong(species, grains, grains.carriers(), wall);
+    return {larger(ofFree.shift, ofHeld.shift), larger(ofFree.spin, ofHeld.spin)};
+}
+
+/// The stability limit (s) of a wall that forces move on held grains alone; infinite of others.
+/// @param share of its springs and dashpots
+static double limitOnHeld(const ContactLaws& species, const GrainSizes& grains, const Wall& wall,
+                          const Integrator& integrator, double share = 1) {
+    if (grains.carriers().empty() || !(mobilityOfWall(wall) > 0)) return infinity;
+    const SpringAndDashpot row = share * rowAmong(species, grains, grains.carriers(), wall).shift;
+    double limit = SignChange(integrator).limit(row);
+    const WallBody* const body = wall.body();
+    if (!body || !integrator.contacts.timesTouches || integrator.contacts.springsInStep)
+        return stabilityMargin * limit;
+    double relaxation = infinity;  // s
+    const SpringAndDashpot friction = share * touchesOf(grains, wall) *
+                                      stiffestAt(species, grains.carriers(), wall,
+                                                 [&](const ContactStiffness& contact, const Bodies& bodies) {
+                                                     relaxation =
+                                                         std::min(relaxation, contact.shortestRelaxation());
+                                                     return ofBody(*body, {}, contact, bodies);
+                                                 });
+    if (friction.spring > 0)
+        limit = std::min(limit, springsAheadLimit(friction.spring, relaxation, integrator));
+    return stabilityMargin * limit;
 }
 
 /// 1/m^2, the grains that may touch a membrane: a hexagonal layer of the smallest on each of its sides.
@@ -91,12 +118,13 @@ static double mostTouchesOnArea(const GrainSizes& grains) {
 /// The springs and dashpots of a membrane's vertices, over their mass: a contact's work, k (u - sum w v)^2
 /// with weights w that sum to 1, is at most k (1/m + 1/M) (m u^2 + M sum w v^2). So a vertex of mass M has
 /// the weights of its contacts, n: those of a hexagonal layer of the smallest grains on each side of its
-/// share of the sheet, at least one on each. (Grains that are held in place are not counted.)
+/// share of the sheet, at least one on each. (Of a held grain u is 0, and the weights are the same.)
 static SpringAndDashpot membraneRow(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
     const Membrane* const membrane = wall.membrane();
     if (!membrane || !(membrane->lightestVertex() < infinity) || grains.count == 0) return {};
     const double onMass = mostTouchesOnArea(grains) / membrane->massOfArea();  // 1/kg
-    return std::max(2 / membrane->lightestVertex(), onMass) * stiffestAt(species, grains, wall);
+    return std::max(2 / membrane->lightestVertex(), onMass) *
+           larger(stiffestAt(species, grains.free, wall), stiffestAt(species, grains.carriers(), wall));
 }
 
 /// The stability limit (s) of the vertices of a membrane: their net, and the grains that touch it, with their
@@ -112,7 +140,7 @@ static double membraneLimit(const ContactLaws& species, const GrainSizes& grains
         const double mass = species.massOf(s, grains.free[s].smallest);
         const double touches =
             std::max(2.0, mostTouchesOnArea(grains) * membrane->lightestVertex() / membrane->massOfArea());
-        row = row + (touches / mass) * stiffestAt(species, grains, wall);
+        row = row + (touches / mass) * stiffestAt(species, grains.free, wall);
     }
     return stabilityMargin * SignChange(integrator).limit(row);
 }
@@ -131,14 +159,6 @@ static void checkMembranes(const ContactLaws& species, const GrainSizes& grains,
                 limit));
 }
 
-/// The sum of these rows of all walls: a grain may touch several.
-static WallResponse pistonRows(const ContactLaws& species, const GrainSizes& grains,
-                               const WallHandler& walls) {
-    WallResponse sum;
-    for (const PresentWall& wall : walls.present()) sum = sum + pistonRow(species, grains, *wall.object);
-    return sum;
-}
-
 Integrator schemeOfScene(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                          const Integrator& integrator) {
     if (!species.layout.hasTorque || grains.hasBodies ||
@@ -151,12 +171,21 @@ Integrator schemeOfScene(const ContactLaws& species, const GrainSizes& grains, c
     return lacks ? integrators::springsInStep : integrator;
 }
 
-double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
-                           const Integrator& asked, const WallResponse& ofWalls) {
+/// The stability limit (s) with these shares, of each present wall, of the springs and dashpots of walls that
+/// forces move. Their
+/// rows add up, as a grain may touch several.
+static double limitWithShares(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                              const Integrator& asked, const std::vector<double>& shares) {
     const Integrator integrator = schemeOfScene(species, grains, walls, asked);
     const std::size_t contacts = mostContacts(grains.count, walls);
     double limit = infinity;
-    WallResponse response = ofWalls;
+    WallResponse response;
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+        if (!(shares[k] > 0)) continue;
+        const Wall& wall = *walls.present()[k].object;
+        response = response + shares[k] * pistonRow(species, grains, wall);
+        limit = std::min(limit, limitOnHeld(species, grains, wall, integrator, shares[k]));
+    }
     for (const PresentWall& wall : walls.present()) {
         limit = std::min(limit, membraneLimit(species, grains, *wall.object, integrator));
         response.shift = response.shift + membraneRow(species, grains, *wall.object);
@@ -170,7 +199,8 @@ double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains,
 
 double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                            const Integrator& integrator) {
-    return sceneStabilityLimit(species, grains, walls, integrator, pistonRows(species, grains, walls));
+    return limitWithShares(species, grains, walls, integrator,
+                           std::vector<double>(walls.present().size(), 1));
 }
 
 /// The largest share, up to 1, of what a time step (s) does not bear as a whole.
@@ -206,31 +236,35 @@ InertiaOfWall inertiaOf(const Wall& wall) {
 
 void checkPistons(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                   double timeStep, const Integrator& integrator) {
-    const auto limitOf = [&](const WallResponse& rows) {
-        return sceneStabilityLimit(species, grains, walls, integrator, rows);
+    const auto limitOf = [&](const std::vector<double>& shares) {
+        return limitWithShares(species, grains, walls, integrator, shares);
     };
-    const WallResponse all = pistonRows(species, grains, walls);
-    if (timeStep <= limitOf(all) || timeStep > limitOf({})) return;
-    std::vector<std::size_t> pistons;
-    for (const auto& [number, wall] : walls.present())
-        if (wall->body() || (wall->drive() && wall->drive()->isPiston())) pistons.push_back(number);
-    const auto rowOf = [&](std::size_t w) { return pistonRow(species, grains, walls.getObject(w)); };
+    const std::vector<double> all(walls.present().size(), 1), none(all.size(), 0);
+    if (timeStep <= limitOf(all) || timeStep > limitOf(none)) return;
+    std::vector<std::size_t> pistons;  // among the present walls
+    for (std::size_t k = 0; k < all.size(); ++k)
+        if (const Wall& wall = *walls.present()[k].object;
+            wall.body() || (wall.drive() && wall.drive()->isPiston()))
+            pistons.push_back(k);
+    const auto with = [](std::vector<double> shares, std::size_t k, double share) {
+        shares[k] = share;
+        return shares;
+    };
     const std::size_t lightest =
-        *std::ranges::min_element(pistons, {}, [&](std::size_t w) { return limitOf(rowOf(w)); });
-    WallResponse others;
-    for (const std::size_t w : pistons)
-        if (w != lightest) others = others + rowOf(w);
-    const bool isOne = timeStep <= limitOf(others);
-    const double share = shareThatIsBorne(
-        timeStep, [&](double part) { return limitOf(isOne ? others + part * rowOf(lightest) : part * all); });
+        *std::ranges::min_element(pistons, {}, [&](std::size_t k) { return limitOf(with(none, k, 1)); });
+    const bool isOne = timeStep <= limitOf(with(all, lightest, 0));
+    const double share = shareThatIsBorne(timeStep, [&](double part) {
+        return limitOf(isOne ? with(all, lightest, part) : std::vector<double>(all.size(), part));
+    });
     if (isOne) pistons = {lightest};
     std::vector<std::string> masses, least;
     double touches = 0;
-    for (const std::size_t w : pistons) {
-        const InertiaOfWall own = inertiaOf(walls.getObject(w));
-        masses.push_back(fmt::format("wall {}: {} = {:.6g} {}", w, own.name, own.value, own.unit));
+    for (const std::size_t k : pistons) {
+        const auto& [number, wall] = walls.present()[k];
+        const InertiaOfWall own = inertiaOf(*wall);
+        masses.push_back(fmt::format("wall {}: {} = {:.6g} {}", number, own.name, own.value, own.unit));
         least.push_back(fmt::format("{:.6g} {}", 1.001 * own.value / share, own.unit));
-        touches = std::max(touches, touchesOf(grains, walls.getObject(w)));
+        touches = std::max(touches, touchesOf(grains, *wall));
     }
     throw InputError(fmt::format(
         "{} {} too light for a time step of {:.6g} s with up to {:.0f} contacts; it must be at least {}, or "
@@ -244,20 +278,28 @@ double shortestHalfPeriod(const ContactLaws& species, const GrainSizes& grains, 
     forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
         shortest = std::min(shortest, halfPeriod(laws, bodies, mass));
     });
-    for (const PresentWall& wall : walls.present()) {
-        const double mobility = mobilityOfWall(*wall.object);
+    for (const PresentWall& present : walls.present()) {
+        const double mobility = mobilityOfWall(*present.object);
         if (!(mobility > 0)) continue;
-        for (std::size_t s = 0; s < grains.free.size(); ++s) {
-            if (grains.free[s].empty()) continue;
-            const PairLaws laws{species, static_cast<int>(s), wall.object->getSpeciesIndex()};
-            for (const double radius : {grains.free[s].smallest, grains.free[s].largest}) {
-                const double mass = species.massOf(s, radius);
-                shortest = std::min(shortest, halfPeriod(laws, Bodies{radius, infinity}, mass) /
-                                                  std::sqrt(1 + mass * mobility));
-            }
-        }
+        const Wall& wall = *present.object;
+        forEachAtWall(
+            species, grains.free, wall, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
+                shortest =
+                    std::min(shortest, halfPeriod(laws, bodies, mass) / std::sqrt(1 + mass * mobility));
+            });
+        forEachAtWall(species, grains.carriers(), wall,
+                      [&](const PairLaws& laws, const Bodies& bodies, double mass) {
+                          shortest = std::min(shortest, halfPeriodOnHeld(laws, bodies, mass, wall));
+                      });
     }
     return shortest;
+}
+
+double halfPeriodOnHeld(const PairLaws& laws, const Bodies& bodies, double mass, const Wall& wall) {
+    const ContactStiffness contact = contactStiffness(laws, bodies, mass);
+    const SpringAndDashpot row = wall.body() ? ofBody(*wall.body(), contact.normal, contact, bodies)
+                                             : mobilityOfWall(wall) * contact.normal;
+    return std::numbers::pi / std::sqrt(row.spring);
 }
 
 double mobilityOfWall(const Wall& wall) {
@@ -273,11 +315,13 @@ double limitOfMovedWalls(const ContactLaws& species, const GrainSizes& grains, c
         const Wall& wall = *present.object;
         limit = std::min(limit, membraneLimit(species, grains, wall, integrator));
         if (!(mobilityOfWall(wall) > 0)) continue;
+        const SpringAndDashpot onHeld = rowAmong(species, grains, grains.carriers(), wall).shift;
+        limit = std::min(limit, stabilityMargin * SignChange(integrator).limit(onHeld));
         const SpringAndDashpot row = pistonRow(species, grains, wall).shift;
         for (std::size_t s = 0; s < grains.free.size(); ++s) {
             if (grains.free[s].empty()) continue;
             const double mass = species.massOf(s, grains.free[s].smallest);
-            const SpringAndDashpot mode = row + (1 / mass) * stiffestAt(species, grains, wall);
+            const SpringAndDashpot mode = row + (1 / mass) * stiffestAt(species, grains.free, wall);
             limit = std::min(limit, stabilityMargin * SignChange(integrator).limit(mode));
         }
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "Kernel/Contacts/ContactLaws.h"
@@ -46,6 +47,18 @@ void forEachExtremePair(const ContactLaws& species, const GrainSizes& grains, co
     }
 }
 
+/// Calls function(laws, bodies, mass) for the smallest and the largest grain of each species, at a wall.
+template <class Function>
+void forEachAtWall(const ContactLaws& species, std::span<const SizeRange> sizes, const Wall& wall,
+                   Function&& function) {
+    for (std::size_t s = 0; s < sizes.size(); ++s) {
+        if (sizes[s].empty()) continue;
+        for (const double radius : {sizes[s].smallest, sizes[s].largest})
+            function(PairLaws{species, static_cast<int>(s), wall.getSpeciesIndex()}, Bodies{radius, infinity},
+                     species.massOf(s, radius));
+    }
+}
+
 /// The contacts that a grain of the scene can have. A wall may touch it at up to three places (the corner of
 /// a mesh).
 std::size_t mostContacts(std::size_t grains, const WallHandler& walls);
@@ -56,10 +69,9 @@ std::size_t mostContacts(std::size_t grains, const WallHandler& walls);
 Integrator schemeOfScene(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                          const Integrator& integrator);
 
-/// The smallest stability limit (s) of the contacts that the scene can have; infinite without grains.
-/// @param ofWalls of walls that forces move
-double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
-                           const Integrator& asked, const WallResponse& ofWalls);
+/// The smallest stability limit (s) of the contacts that the scene can have; infinite without grains. A wall
+/// that forces move counts with the grains, and by itself on n held ones: n (k, c) / M, as a held grain takes
+/// no part in their motion.
 double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                            const Integrator& integrator = integrators::predictedVelocityVerlet);
 
@@ -74,10 +86,17 @@ void checkPistons(const ContactLaws& species, const GrainSizes& grains, const Wa
 [[nodiscard]] double mobilityOfWall(const Wall& wall);
 
 /// The step (s) above which a wall that forces move is no longer integrated stably against the grains that
-/// touch it: k (1/m + n/M), and so its dashpots, of which nothing is implicit; membranes as in
-/// sceneStabilityLimit(). Infinite without such walls. For steps that grains bear above the stability limit.
+/// touch it: k (1/m + n/M), n k / M where they are held, and so its dashpots, of which nothing is implicit;
+/// membranes as in sceneStabilityLimit(). Infinite without such walls. For steps above the stability limit at
+/// which the grains are still stable.
 [[nodiscard]] double limitOfMovedWalls(const ContactLaws& species, const GrainSizes& grains,
                                        const WallHandler& walls, const Integrator& integrator);
+
+/// Half a period (s) of the oscillation of a wall that forces move (no membrane) on one held grain, by the
+/// wall's mass alone; infinite of other walls.
+/// @param mass kg, of the grain, for dashpots
+[[nodiscard]] double halfPeriodOnHeld(const PairLaws& laws, const Bodies& bodies, double mass,
+                                      const Wall& wall);
 
 /// Half a period (s) of the fastest oscillation that two bodies of the scene can have; infinite without
 /// grains. A wall that forces move is a body.

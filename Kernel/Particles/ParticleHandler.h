@@ -234,8 +234,8 @@ public:
 
     void visitState(StateArchive& archive);
     /// The columns in which the kernel keeps the grains. In a scene on several ranks they are those of this
-    /// rank, with copies of others (ghosts) behind them. Ask for it again after each step: a step that ends
-    /// where nobody looks is finished when it is asked for.
+    /// rank, with copies of others (ghosts) behind them. Call it again after each step: the end of a
+    /// step that no output or hook follows is computed at this call.
     [[nodiscard]] Grains& store() {
         finishStep();
         return grains;

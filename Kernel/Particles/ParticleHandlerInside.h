@@ -63,7 +63,7 @@ public:
     /// Throws InputError where other ranks have grains that are not here. @param what needs all of them
     static void requireAll(const ParticleHandler& of, std::string_view what) { of.requireAll(what); }
 
-    /// What knows how many grains all ranks have together, where each has its own ones only.
+    /// The function that returns the number of grains of all ranks, where each has its own ones only.
     static void callToCountAll(ParticleHandler& of, std::function<std::size_t()> function) {
         of.countOfAll = std::move(function);
     }

@@ -15,6 +15,11 @@ Features AdaptivePart::features(const StepContext& /*scene*/) const {
     return adaptive.isSet() ? Features{Feature::AdaptiveStep} : Features{};
 }
 
+GrainSizes AdaptivePart::sizesOf(const StepContext& scene) const {
+    return sizesOfScene(*scene.laws, scene.particles.store(), inlets, scene.contacts.getHeldContacts(),
+                        scene.contacts.ranks());
+}
+
 double AdaptivePart::largestStepOf(const StepContext& scene, const GrainSizes& sizes) const {
     const double most = stepOfFastestPair(*scene.laws, sizes, scene.walls);
     return std::min(most < infinity ? most : scene.length,  // nothing can touch
@@ -35,8 +40,7 @@ static double smallestRadius(const StepContext& scene, const GrainSizes& sizes) 
 /// Grains that have come shorten the step until the next choice; other changes ask for one.
 void AdaptivePart::takeOver(StepContext& scene, const SceneChanges& changes) {
     if (!changes.areOnlyNewGrains()) return adaptive.chooseAnew();
-    const GrainSizes sizes =
-        sizesOfScene(*scene.laws, scene.particles.store(), inlets, scene.contacts.ranks());
+    const GrainSizes sizes = sizesOf(scene);
     const double limit = sceneStabilityLimit(*scene.laws, sizes, scene.walls, contactScheme(scene));
     scene.length = std::min(scene.length, adaptive.shorten(scene.length, largestStepOf(scene, sizes), limit));
 }
@@ -47,7 +51,7 @@ void AdaptivePart::prepare(StepContext& step) {
     ParticleStore& grains = step.grains();
     step.contacts.renewGhosts(grains);
     const StepTimes::Within search(step.times, StepTimes::Part::Search);
-    const GrainSizes sizes = sizesOfScene(*step.laws, grains, inlets, step.contacts.ranks());
+    const GrainSizes sizes = sizesOf(step);
     const double most = largestStepOf(step, sizes);
     const AdaptiveStep::Outlook outlook =
         adaptive.lookAhead(grains, step.box, step.length, most, norm(step.gravity), step.largestReach,

@@ -36,6 +36,7 @@ private:
     /// The longest step, over the time in which a servo of stress reaches its aim.
     static constexpr double shareOfServo = 0.1;
 
+    [[nodiscard]] GrainSizes sizesOf(const StepContext& scene) const;
     /// s, for the stiffest pair, and for the servos.
     [[nodiscard]] double largestStepOf(const StepContext& scene, const GrainSizes& sizes) const;
 

@@ -25,8 +25,8 @@ public:
 
     /// m, of the widest body that is there or to come, as it turns; 0 without any
     [[nodiscard]] double widest() const { return width; }
-    /// Whether features() asks all ranks for bodies, or takes what they answered last: a hook may call it on
-    /// one rank alone.
+    /// Whether features() reduces over all ranks, or returns the last result: a hook may call it on one rank
+    /// alone.
     void askRanks(bool ask) { asksRanks = ask; }
     /// Tells the user of bodies whose spheres do not hang together.
     /// @param first of the bodies that are looked at
@@ -36,7 +36,7 @@ private:
     const InletHandler& inlets;
     double width = 0;  // m
     bool asksRanks = true;
-    mutable bool areThere = false;  // on any rank, when features() last asked
+    mutable bool areThere = false;  // on any rank, by the last reduction of features()
 };
 
 }  // namespace pendular

@@ -65,8 +65,8 @@ std::span<const Conflict> HeatPart::ownConflicts() const {
     return table;
 }
 
-/// A linear spring's overlap says nothing of the spot that real grains have at its force; a sintered neck has
-/// the size that it has grown to.
+/// The overlap of a linear spring does not determine the contact spot of real grains at its force; a sintered
+/// neck has the size that it has grown to.
 std::optional<std::string> HeatPart::objectionToSoftening(const ContactLaws& ofScene) const {
     if (radiusFactor == 1) return {};
     const double ratio = radiusFactor * radiusFactor * radiusFactor;

@@ -26,7 +26,7 @@ enum class Conduction {
     /// each side heat is constricted to a round spot on a half-space, a resistance of 1/(4 k a) (Batchelor
     /// and
     /// O'Brien 1977, Proc. R. Soc. A 355, 313). The radius is Hertz's, sqrt(R* d), of Hertzian laws, and of
-    /// linear and plastic ones for want of their own; the neck of laws that sinter; and that of JKR's theory,
+    /// linear and plastic ones, which define none; the neck of laws that sinter; and that of JKR's theory,
     /// which conducts until it snaps (contactSpot(), Species/ContactSpot.h).
     Constriction,
     /// k pi 2 R* d / l with the distance l of the centres, k the harmonic mean: area over distance, as

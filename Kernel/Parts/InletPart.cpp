@@ -45,9 +45,10 @@ void InletPart::compareSetUp(StateArchive& archive, StepContext& /*scene*/) { in
 void InletPart::visitState(StateArchive& archive, StepContext& /*scene*/) { inlets.visitState(archive); }
 
 GrainSizes sizesOfScene(const ContactLaws& laws, const ParticleStore& grains, const InletHandler& inlets,
-                        const AllRanks& ranks) {
+                        HeldContacts heldContacts, const AllRanks& ranks) {
     inlets.expectShapes(laws.shapes());
     GrainSizes sizes(grains, laws.speciesCount(), ranks);
+    sizes.heldCarryWalls = heldContacts != HeldContacts::None;
     for (const InletHandler::Sizes& toCome : inlets.sizes(laws)) {
         // Twice, so that of all sizes between them any number may come; the count is that of a dense bed.
         const auto species = static_cast<std::size_t>(toCome.species);

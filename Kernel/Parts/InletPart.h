@@ -1,5 +1,6 @@
 #pragma once
 
+#include "Kernel/Contacts/HeldContacts.h"
 #include "Kernel/Insertion/Inlet.h"
 #include "Kernel/Motion/GrainSizes.h"
 #include "Kernel/Step/StepPart.h"
@@ -31,6 +32,7 @@ private:
 /// The sizes of all these grains, and of those that inlets will bring.
 /// @param ranks that share the grains; none: all are here
 [[nodiscard]] GrainSizes sizesOfScene(const ContactLaws& laws, const ParticleStore& grains,
-                                      const InletHandler& inlets, const AllRanks& ranks = {});
+                                      const InletHandler& inlets, HeldContacts heldContacts,
+                                      const AllRanks& ranks = {});
 
 }  // namespace pendular

@@ -41,7 +41,7 @@ struct DiagonalStress {
 /// (Kernel/Particles/Servo.h). The law is that of a wall that is moved by its force, with the stiffness of
 /// the contacts for a gain that nobody needs to guess; stable for steps below 2 x time, and without overshoot
 /// for steps up to time. Dashpots, and half of a step of tangential springs (which the stiffness leaves out),
-/// are taken at the new rate, so that they do not make it ring. Throws RunError where the grains cannot bear
+/// are taken at the new rate, so that they do not make it ring. Throws RunError where the grains cannot carry
 /// the stress.
 /// @param interval s, since this was called last; @param now s
 void controlStress(HomogeneousStrain& strain, LeesEdwards& shear, const DiagonalStress& stress,

@@ -385,8 +385,8 @@ void GrainSharing::exchangeMotion(ParticleStore& grains, bool withAccelerations)
     else withAccelerations ? exchangeMotionOf<false, true>(grains) : exchangeMotionOf<false, false>(grains);
 }
 
-/// Three numbers whose largest ones tell the largest of one, and whether the other is the same on all ranks.
-/// A double has 52 bits of it: by chance two are taken for the same once in 4e15.
+/// Three numbers, whose maxima over all ranks give that of the first value, and whether the second is the
+/// same on all ranks. A double has 52 bits of it: by chance two are taken for the same once in 4e15.
 static Exchange::Three threeOf(double largest, std::uint64_t alike) {
     const auto number = static_cast<double>(alike >> 12);
     return {std::isnan(largest) ? infinity : largest, number, -number};

@@ -9,7 +9,7 @@
 #include "Kernel/State/StateArchive.h"
 
 // What all ranks of a run must have alike: each makes a hash of it, and the hashes are compared. Only where
-// they differ all is said by name.
+// they differ the values themselves are compared, by name.
 
 namespace pendular {
 
@@ -22,7 +22,7 @@ using ToAgreeOn = std::function<void(StateArchive&)>;
 [[nodiscard]] std::uint64_t hashOfGrains(ParticleStore& grains);
 
 /// What differs, with its values: "gravity is (0, 0, -9.81) m/s^2 on rank 0 and (0, 0, -5) m/s^2 on rank 1";
-/// empty where nothing does. All ranks must ask, and get the same.
+/// empty where nothing does. All ranks must call it, and get the same.
 [[nodiscard]] std::string differenceOfRanks(GrainSharing& ranks, const ToAgreeOn& visit);
 /// The same of grains, where all ranks have all of them.
 [[nodiscard]] std::string differenceOfGrains(GrainSharing& ranks, ParticleStore& grains);

@@ -288,7 +288,7 @@ private:
     std::optional<double> endOfStep;  // s, within a step whose grains have moved
     bool begun = false;
     bool stepChanged = false;       // since the run began
-    std::uint32_t stepsOfCall = 0;  // as stepsToCome() says
+    std::uint32_t stepsOfCall = 0;  // see stepsToCome()
     RestartSchedule restarts;
     std::vector<std::filesystem::path> replaced;  // as replaceAtStart() says
     std::optional<std::size_t> restartFileSteps;  // in restartFile(), if it is of this run

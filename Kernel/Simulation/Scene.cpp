@@ -71,8 +71,8 @@ void Scene::tellEvents() {
     if (!contacts().events().isListening()) return;
     if (inside->isDistributed())
         inside->eventsOfAll = pendular::eventsOfAll(contacts().events(), contacts().ranks());
-    const std::vector<ContactEvent> told = contactEvents();  // the hook may listen no more
-    for (const ContactEvent& event : told) actionsOnContactEvent(event);
+    const std::vector<ContactEvent> events = contactEvents();  // a copy: the hook may end the listening
+    for (const ContactEvent& event : events) actionsOnContactEvent(event);
 }
 
 RunNumbers Scene::numbers() const {
@@ -242,7 +242,12 @@ LiquidLedger Scene::Inside::liquidLedger() const {
     return found;
 }
 
+/// Two bodies of different ranks are on none of them together: they are looked for when all are.
 void Scene::warnOfUnlistedContacts() const {
+    if (inside->isDistributed()) {
+        inside->unlistedAreAskedFor = true;
+        return;
+    }
     const std::string sentence =
         inside->unlisted.lookFor(contacts(), particleHandler.store(), wallHandler, getNumberOfTimeSteps());
     if (!sentence.empty()) inside->context.logger(LogLevel::Warn, "{}.", sentence);

@@ -180,11 +180,12 @@ public:
     /// between held grains (contactForceOn(), interactions(), fields); None leaves them out everywhere. They
     /// do not change the motion of grains. Dashpots that are made for a restitution have the mass m1 m2 / (m1
     /// + m2) that both would have if they were free, or m of the grain at a wall. Also in a run, from the
-    /// next step on.
+    /// next step on; on several ranks after gather().
     void setHeldContacts(HeldContacts which);
     [[nodiscard]] HeldContacts getHeldContacts() const;
     /// Warns, once, if two held bodies overlap whose contact is not listed: for functions that show the
-    /// contacts of the scene, as interactions() does.
+    /// contacts of the scene, as interactions() does. In a hook on several ranks it does so when all grains
+    /// are together the next time: at gather(), an output or a restart file.
     void warnOfUnlistedContacts() const;
     /// Keeps account of the energy; costs time, and is off by default.
     void keepEnergyLedger(bool keep = true);
@@ -314,6 +315,7 @@ protected:
 
 private:
     class Inside;
+    friend class SettingNames;  // of SelfTests: all that parts of the step compare at a restart
 
     void setUp() override;
     void advanceByStep(bool another) override;

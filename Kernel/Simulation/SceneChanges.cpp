@@ -43,6 +43,13 @@ static bool takeUnchanged(GrainChanges& changes) {
            0;
 }
 
+[[noreturn]] static void refuseOtherHeldOnRanks() {
+    throw InputError(
+        "Simulation: setHeldContacts(), or keepForces() of a wall, asks for other contacts of particles that "
+        "are held than are listed; in a run on several ranks (setRanks()) call it after gather() only: all "
+        "ranks must call both, and make the same change.");
+}
+
 /// Whether grains were joined only to bodies that are new themselves, and within what the checks know because
 /// an inlet brings such: then they are new grains, and nothing that was there has changed.
 static bool areKnownNewBodies(const GrainChanges& changes, const ParticleStore& grains,
@@ -83,13 +90,14 @@ void Scene::Inside::takeOverChanges() {
             checkedSizes.hasBodies && !scene.inletHandler.bringBodies() &&
             (scene.outletHandler.isEmpty() ? !contacts.ranks().areSeveral() && context.grains().bodies.empty()
                                            : !contacts.ranks().any(!context.grains().bodies.empty()));
-        const bool newHeld = !isDistributed() && contacts.needsOtherHeld(context.grains());
+        const bool newHeld = contacts.needsOtherHeld(context.grains());
         if (!newLaws && !changedWalls && !newStep && !lastBodyWent && !newHeld &&
             !ParticleHandler::Inside::hasChanges(particles))
             return;
         GrainChanges changes = ParticleHandler::Inside::takeChanges(particles);
         if (isDistributed()) {
             if (newLaws || changedWalls || newStep) refuseForRanks(changes, true);
+            if (newHeld) refuseOtherHeldOnRanks();
             return takeOverOnRanks(changes, lastBodyWent);
         }
         const bool listsAgain = takeUnchanged(changes);

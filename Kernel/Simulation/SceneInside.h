@@ -101,7 +101,7 @@ public:
     // Scene.cpp
 
     [[nodiscard]] GrainSizes sizesOf(const ParticleStore& grains) const {
-        return sizesOfScene(*context.laws, grains, scene.inletHandler,
+        return sizesOfScene(*context.laws, grains, scene.inletHandler, contacts.getHeldContacts(),
                             grains.isShared ? contacts.ranks() : AllRanks());
     }
     [[nodiscard]] LiquidLedger liquidLedger() const;
@@ -142,6 +142,7 @@ public:
     bool gravityChanged = false;                   // since the run began
     bool heldContactsChanged = false;              // setHeldContacts(), since the run began
     UnlistedContacts unlisted;
+    bool unlistedAreAskedFor = false;       // by a hook of this rank, which has some of the grains only
     bool lawsAreNew = false;                // prepared ones are to be made again
     bool noRoomWasTold = false;             // of insert() in the run
     std::vector<ContactEvent> eventsOfAll;  // of the last step, where ranks have their own grains only
@@ -201,6 +202,8 @@ private:
     void agreeAtList();
     void agreeOnAll(bool isSetUp = false);
     [[nodiscard]] std::uint64_t hashOfStep();
+    /// Whether a hook of any rank has asked for contacts since all grains were together last.
+    [[nodiscard]] bool wereUnlistedAskedFor();
     [[noreturn]] void refuseDifference(const std::string& difference, bool isSetUp = false) const;
 
     void visitScene(StateArchive& archive);

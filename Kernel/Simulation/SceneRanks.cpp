@@ -1,5 +1,11 @@
 #include <fmt/format.h>
 
+#include <array>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <utility>
+
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Base/SilentRank.h"
@@ -16,7 +22,13 @@ void Scene::Inside::gather() {
     if (!isDistributed()) return;
     scene.particleHandler.finishStep();
     if (scene.hasBegun()) takeOverChanges();
+    const bool areAsked = wereUnlistedAskedFor();
     contacts.gather(scene.particleHandler.store());
+    if (areAsked) scene.warnOfUnlistedContacts();
+}
+
+bool Scene::Inside::wereUnlistedAskedFor() {
+    return contacts.hasHeldGrains() && contacts.ranks().any(std::exchange(unlistedAreAskedFor, false));
 }
 
 void Scene::Inside::onFirstRank(const std::function<void()>& write) {
@@ -26,7 +38,26 @@ void Scene::Inside::onFirstRank(const std::function<void()>& write) {
     }
     scene.particleHandler.finishStep();
     if (scene.hasBegun()) takeOverChanges();
-    contacts.withAllOnFirst(scene.particleHandler.store(), write);
+    const bool areAsked = wereUnlistedAskedFor();
+    contacts.withAllOnFirst(scene.particleHandler.store(), [&] {
+        if (areAsked) scene.warnOfUnlistedContacts();
+        write();
+    });
+}
+
+static std::string_view nameOf(HeldContacts which) {
+    constexpr std::array<std::string_view, 3> names{"WhereAsked", "All", "None"};
+    return names[static_cast<std::size_t>(which)];
+}
+
+/// All ranks sum these forces together.
+static constexpr std::string_view listOfKept = "the list of walls whose forces are kept";
+static std::string wallsThatKeepForces(const WallHandler& walls) {
+    std::string list;
+    for (const auto& [number, wall] : walls.present())
+        if (wall->keepsForces())
+            fmt::format_to(std::back_inserter(list), "{}{}", list.empty() ? "" : ", ", number);
+    return list.empty() ? "empty" : list;
 }
 
 /// What hooks can change at any time.
@@ -35,6 +66,8 @@ void Scene::Inside::visitStep(StateArchive& archive) {
     archive.same("the number of steps that step() is to do", scene.stepsToCome());
     archive.same("the time step", context.length, "s");
     archive.sameRecord<double>("gravity", context.gravity, "m/s^2");
+    archive.same("setHeldContacts()", nameOf(contacts.getHeldContacts()));
+    archive.same(listOfKept, wallsThatKeepForces(scene.wallHandler));
 }
 
 std::uint64_t Scene::Inside::hashOfStep() {
@@ -54,6 +87,7 @@ void Scene::Inside::visitSetUp(StateArchive& archive) {
     scene.visitSteps(archive);
     scene.visitDecisions(archive);
     archive.same("integrator", description(integrator));
+    archive.same(listOfKept, wallsThatKeepForces(scene.wallHandler));
     visitSurroundings(archive);
     visitSettings(archive);
     archive.same("energyLedger", account.isKept() ? "kept" : "not kept");

@@ -36,7 +36,7 @@ public:
         for (auto kept = before.rbegin(); kept != before.rend(); ++kept) *kept->first = kept->second;
         try {
             scene.laws().mixAll();      // as it was before
-        } catch (const InputError&) {}  // nor could it be mixed before, which who asks next is told
+        } catch (const InputError&) {}  // it could not be mixed before either; the next use of it throws
     }
 
     /// @param least of the powers that are scaled

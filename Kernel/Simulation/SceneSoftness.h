@@ -4,7 +4,7 @@
 
 #include "Kernel/Simulation/SoftestModulus.h"
 
-// What softestModulus() tells of a scene.
+// What softestModulus() computes of a scene.
 
 namespace pendular {
 

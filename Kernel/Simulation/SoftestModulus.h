@@ -93,15 +93,16 @@ struct SoftnessAdvice {
 /// (d/D)^0.6, and the energy of fluctuations is still 7 % off at a stiffness (E/((1 - nu^2) p))^(2/3) of 1e4,
 /// so 1e6 is asked. 1 % was resolved by these runs; less is an extrapolation. Cohesion adds pull/D^2 to the
 /// pressure; where it is the larger part, d/D is at most 1.68e-3 (a stiffness of 1e3 pulls). Overlaps by
-/// speed are to be at most 5 % of the radius, the domain of Hertz's law. The angle of repose of heaps with
-/// rolling friction fell as estimated: by 5.3 % at a quarter and by 9.7 % at a tenth of the modulus. Nothing
-/// is known of wide sizes, clumps, and of beds that are confined to a volume.
+/// speed are to be at most 5 % of the radius, the domain of Hertz's law. A user reports that the angle of
+/// repose of heaps with rolling friction fell as estimated, by 5.3 % at a quarter and by 9.7 % at a tenth of
+/// the modulus; this was not measured here. Nothing is known of wide sizes, clumps, and of beds that are
+/// confined to a volume.
 ///
 /// Without a scene the gain is that of contacts by Hertz's law alone: steps go with the root of the modulus.
 /// Throws InputError where a number is out of its range, no figure is wanted, or cohesion is there and what
-/// is to be kept of it is not said.
+/// is to be kept of it is not given.
 [[nodiscard]] SoftnessAdvice softestModulus(const SoftnessQuestion& question);
-/// The same for a scene, whose own time step says what is gained: before and after all stiffnesses of its
+/// The same for a scene. The gain is that of its own time step, before and after all stiffnesses of its
 /// species are scaled. A modulus (Pa) goes with Young's; a stiffness (N/m) with its power 2/3, as Hertz's
 /// does at the same force; a dashpot (kg/s) with the root of the stiffness, for the same restitution.
 [[nodiscard]] SoftnessAdvice softestModulus(Scene& scene, const SoftnessQuestion& question);

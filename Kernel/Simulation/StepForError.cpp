@@ -346,27 +346,48 @@ double touchTime(const PairLaws& pair, const Bodies& bodies, double effectiveMas
                     std::numbers::pi * std::sqrt(effectiveMass / spring));
 }
 
-/// For each two species, and each species with each wall's, the bodies that part soonest.
+Meeting meetingOf(const PairLaws& pair, const Bodies& bodies, double effectiveMass) {
+    const bool attractsBefore = !pair.laws.ofPair(pair.a, pair.b).formsAtContact;
+    return {static_cast<std::size_t>(pair.a),
+            static_cast<std::size_t>(pair.b),
+            bodies,
+            halfPeriod(pair, bodies, effectiveMass),
+            touchTime(pair, bodies, effectiveMass),
+            effectiveMass / contactStiffness(pair, bodies, effectiveMass).normal.dashpot,
+            attractsBefore ? pair.range(bodies) : 0};
+}
+
+/// For each two species, and each species with each wall's, the bodies that part soonest. A wall that forces
+/// move on held grains is taken as the same grains that are free, at a wall that is held, with as many steps:
+/// if it is heavy, with those of a touch ten times as long as the shortest of the scene.
 std::vector<Meeting> meetingsOf(Scene& scene) {
     std::map<std::array<std::size_t, 3>, Meeting> soonest;
-    forEachExtremePair(
-        scene.laws(), scene.grainSizes(scene.particleHandler.store()), scene.wallHandler,
-        [&](const PairLaws& pair, const Bodies& bodies, double effectiveMass) {
-            const bool attractsBefore = !pair.laws.ofPair(pair.a, pair.b).formsAtContact;
-            Meeting found{static_cast<std::size_t>(pair.a),
-                          static_cast<std::size_t>(pair.b),
-                          bodies,
-                          halfPeriod(pair, bodies, effectiveMass),
-                          touchTime(pair, bodies, effectiveMass),
-                          effectiveMass / contactStiffness(pair, bodies, effectiveMass).normal.dashpot,
-                          attractsBefore ? pair.range(bodies) : 0};
-            if (found.isAtWall()) found.quicker = quickerAtWall(scene, pair.b, effectiveMass);
-            std::array<std::size_t, 3> key{found.species1, found.species2, found.isAtWall() ? 1u : 0u};
-            if (!found.isAtWall() && key[0] > key[1]) std::swap(key[0], key[1]);
-            const auto [at, isNew] = soonest.try_emplace(key, found);
-            const auto time = [](const Meeting& meeting) { return meeting.quicker * meeting.halfPeriod; };
-            if (!isNew && time(found) < time(at->second)) at->second = found;
-        });
+    const auto keep = [&](const Meeting& found) {
+        std::array<std::size_t, 3> key{found.species1, found.species2, found.isAtWall() ? 1u : 0u};
+        if (!found.isAtWall() && key[0] > key[1]) std::swap(key[0], key[1]);
+        const auto [at, isNew] = soonest.try_emplace(key, found);
+        const auto time = [](const Meeting& meeting) { return meeting.quicker * meeting.halfPeriod; };
+        if (!isNew && time(found) < time(at->second)) at->second = found;
+    };
+    const GrainSizes sizes = scene.grainSizes(scene.particleHandler.store());
+    forEachExtremePair(scene.laws(), sizes, scene.wallHandler,
+                       [&](const PairLaws& pair, const Bodies& bodies, double effectiveMass) {
+                           Meeting found = meetingOf(pair, bodies, effectiveMass);
+                           if (found.isAtWall()) found.quicker = quickerAtWall(scene, pair.b, effectiveMass);
+                           keep(found);
+                       });
+    const double longest = 10 * shortestHalfPeriod(scene.laws(), sizes, scene.wallHandler);  // s
+    for (const PresentWall& present : scene.wallHandler.present()) {
+        const Wall& wall = *present.object;
+        if (!(mobilityOfWall(wall) > 0)) continue;
+        forEachAtWall(scene.laws(), sizes.carriers(), wall,
+                      [&](const PairLaws& pair, const Bodies& bodies, double mass) {
+                          Meeting found = meetingOf(pair, bodies, mass);
+                          found.quicker = std::min(halfPeriodOnHeld(pair, bodies, mass, wall), longest) /
+                                          found.halfPeriod;
+                          keep(found);
+                      });
+    }
     std::vector<Meeting> meetings;
     for (const auto& [key, meeting] : soonest) meetings.push_back(meeting);
     return meetings;

@@ -15,7 +15,7 @@
 namespace pendular {
 namespace {
 
-/// Two bodies that overlap, by the names that a user knows.
+/// Two bodies that overlap, by their names in messages.
 using Names = std::optional<std::pair<std::string, std::string>>;
 
 bool overlap(const ContactSystem& contacts, const ParticleStore& grains, std::uint32_t a, std::uint32_t b) {
@@ -74,7 +74,7 @@ Names findAtWall(const ContactSystem& contacts, const ParticleStore& grains, con
 
 std::string UnlistedContacts::lookFor(const ContactSystem& contacts, const ParticleStore& grains,
                                       const WallHandler& walls, std::size_t step) {
-    if (wasTold || contacts.rebuildCount() == 0 || contacts.getHeldContacts() == HeldContacts::None)
+    if (hasWarned || contacts.rebuildCount() == 0 || contacts.getHeldContacts() == HeldContacts::None)
         return {};
     const bool isNewList = std::exchange(lastList, contacts.rebuildCount()) != contacts.rebuildCount();
     if (std::exchange(lastStep, step) == step && !isNewList) return {};
@@ -90,7 +90,7 @@ std::string UnlistedContacts::lookFor(const ContactSystem& contacts, const Parti
     Names both = findPair(contacts, grains, held);
     if (!both) both = findAtWall(contacts, grains, walls, held);
     if (!both) return {};
-    wasTold = true;
+    hasWarned = true;
     return fmt::format(
         "{} and {} overlap and are held along all axes: their contact is not listed, so that "
         "interactions(), interactionsOf() and contactForceOn() do not have it; take "

@@ -10,9 +10,9 @@ class ContactSystem;
 class ParticleStore;
 class WallHandler;
 
-/// Finds out whether two bodies overlap that are held along all axes and have no contact (HeldContacts.h), so
-/// that who asks for contacts can be told: at most once in a run, and at the price of a search only where
-/// contacts were listed again, or such bodies move.
+/// Finds out whether two bodies overlap that are held along all axes and have no contact (HeldContacts.h),
+/// for a warning at queries of contacts: at most one in a run. It searches only where the neighbour list was
+/// rebuilt, or such bodies move.
 class UnlistedContacts {
 public:
     /// A sentence on two such bodies, the first time that there are any; else empty.
@@ -22,7 +22,7 @@ public:
 
 private:
     std::optional<std::size_t> lastStep, lastList;
-    bool wasTold = false;
+    bool hasWarned = false;
 };
 
 }  // namespace pendular

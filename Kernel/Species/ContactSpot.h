@@ -21,15 +21,15 @@ template <class Normal>
 concept HasContactRadius = requires(const Normal law) {
     { law.contactRadius(1.0, 1.0) } -> std::same_as<double>;  // m, at an effective radius and an overlap
 };
-/// An adhesion law that has one: that of what joins the bodies, also where its neck is stretched. It is asked
-/// before the normal law.
+/// An adhesion law that has one: that of what joins the bodies, also where its neck is stretched. It takes
+/// precedence over the normal law.
 template <class Adhesion>
 concept HasNeck = requires(const Adhesion law, const Bodies& bodies) {
     { law.neckAt(bodies, 1.0) } -> std::same_as<ContactSpot>;  // at an overlap, m
 };
 
 /// The spot of a contact at an overlap (m), by the laws of its pair: that of the adhesion or of the normal
-/// law, where one has its own; else Hertz's, sqrt(R* d), which other laws than Hertz's take for want of one.
+/// law, where one has its own; else Hertz's, sqrt(R* d), also for laws that define none.
 template <class Mixed>
 ContactSpot contactSpot(const Mixed& laws, const Bodies& bodies, double overlap) {
     using Normal = typename Mixed::Normal;

@@ -112,8 +112,8 @@ struct NormalHistoryOf<Law> {
 
 /// A normal law whose contacts change with time at a given overlap: creep(p, contact, step, history) brings
 /// the history on by the step (s) that has come to its end, at the overlap there, before the force: a rate
-/// that depends on the force must be implicit in it, as no limit of the step knows it. It must not raise the
-/// elastic energy, of which it has taken creepLoss(p, contact, before, after), J.
+/// that depends on the force must be implicit in it, as no limit of the step includes it. It must not raise
+/// the elastic energy, of which it has taken creepLoss(p, contact, before, after), J.
 template <class Law>
 concept Creeps = HasNormalHistory<Law> &&
     requires(const typename Law::Prepared p, const Contact<double>& contact,

@@ -41,7 +41,7 @@ private:
 };
 
 /// What a StateArchive visits as a hash, instead of a file: the ranks of a scene compare it. With names it
-/// also keeps each entry, to say which of them differ.
+/// also keeps each entry, so that those that differ can be named.
 class StateDigest {
 public:
     enum class Keep { HashOnly, Names };

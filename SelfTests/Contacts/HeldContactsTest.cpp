@@ -1,11 +1,15 @@
 // Contacts between bodies that are held along all axes: where something needs them, and nowhere else.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "Kernel/Base/Logger.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Parts/HeatPart.h"
 #include "Kernel/Simulation/StateHash.h"
@@ -16,6 +20,7 @@
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
+#include "SelfTests/Support/Refusal.h"
 
 namespace pendular::heldContactsTest {
 namespace {
@@ -65,7 +70,6 @@ Scene& ready(Scene& scene) {
     scene.keepEnergyLedger();
     scene.setQuiet();
     scene.setTimeMax(1);
-    scene.acceptUnstableTimeStep();
     return scene;
 }
 
@@ -494,6 +498,91 @@ TEST(HeldContacts, areTheSameOnRanks) {
         Driven scene;
         use(scene);
     });
+}
+
+/// The floor of grains on a plane, whose contacts of held grains a hook asks for.
+class Asking : public Driven {
+public:
+    explicit Asking(std::function<void(Asking&)> function) : hook(std::move(function)) {
+        setHeldContacts(HeldContacts::WhereAsked);
+        wallHandler.copyAndAddObject(
+            InfiniteWall({0, 0, -1}, {0, 0, -r + deep}, speciesHandler.getObject(0)));
+    }
+    static constexpr std::size_t inStep = 20;
+
+private:
+    void actionsAfterTimeStep() override {
+        if (getNumberOfTimeSteps() == inStep) hook(*this);
+    }
+    std::function<void(Asking&)> hook;
+};
+
+// On several ranks each has its own grains only, of which perhaps none is held: all refuse, or all list anew.
+TEST(HeldContacts, areAskedForOnRanksAfterGatherOnly) {
+    const std::vector<std::function<void(Asking&)>> asks{
+        [](Asking& scene) { scene.setHeldContacts(HeldContacts::All); },
+        [](Asking& scene) { scene.wallHandler.getObject(1).keepForces(); }};
+    for (const auto& ask : asks) {
+        std::array<std::string, 3> told;
+        VirtualRanks(told.size()).run([&](Exchange& exchange) {
+            Asking scene(ask);
+            scene.setRanks(exchange, {});
+            scene.initialise();
+            try {
+                scene.step(Asking::inStep + 1);
+            } catch (const RunError& refused) {
+                told[exchange.rank()] = refused.what();
+            }
+        });
+        for (const std::string& one : told) {
+            EXPECT_TRUE(support::isOneSentence(one));
+            for (const std::string_view part : {"setHeldContacts()", "keepForces()", "gather()"})
+                EXPECT_TRUE(support::contains(one, part));
+        }
+        std::size_t before = 0, after = 0;
+        const auto gathersFirst = [&](auto&& use) {
+            Asking scene([&](Asking& of) {
+                of.gather();
+                before = of.contacts().counts().acting;
+                ask(of);
+            });
+            use(scene);
+            after = scene.contacts().counts().acting;
+        };
+        gathersFirst([](Scene& scene) {
+            scene.initialise();
+            scene.step(Asking::inStep + 1);
+        });
+        EXPECT_GE(after, before + 64u);  // the lower layer at the plane, and more
+        const auto make = [&](auto&& use) {
+            Asking scene([&](Asking& of) {
+                of.gather();
+                ask(of);
+            });
+            use(scene);
+        };
+        ranks::expectSameOnRanks(300, make, {2, 3});
+    }
+}
+
+// Grains of different ranks are looked for when all are together, and the first rank tells of them.
+TEST(HeldContacts, areToldOfOnRanksWhenGrainsAreTogether) {
+    const Lines lines;
+    VirtualRanks(3).run([&](Exchange& exchange) {
+        Asking scene([](Asking& of) {
+            if (of.particleHandler.contains(0)) static_cast<void>(of.contactForceOn(0));
+        });
+        scene.setQuiet(false);
+        scene.setRanks(exchange, {});
+        scene.initialise();
+        scene.step(Asking::inStep + 5);
+        if (exchange.rank() == 0) {
+            EXPECT_TRUE(lines.told.empty());
+        }
+        scene.gather();
+    });
+    ASSERT_EQ(lines.told.size(), 1u);
+    EXPECT_TRUE(support::contains(lines.told[0], "particle 0 and particle 1 overlap and are held"));
 }
 
 TEST(HeldContacts, goOnFromARestartFile) {

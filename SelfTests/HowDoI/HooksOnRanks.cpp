@@ -10,7 +10,7 @@ struct HooksOnRanks : FirstDriver {
         // Changes of each particle by itself: by the rank that owns it.
         for (GrainReference grain : particleHandler.ownGrains())
             grain.setVelocity(0.999 * grain.getVelocity());
-        // Sums, counts and maxima over all ranks, which all ranks must ask for together.
+        // Sums, counts and maxima over all ranks: all ranks must make these calls.
         const double heights =
             sumOverGrains(*this, [](const GrainReference& grain) { return grain.getPosition().z(); });
         mean = heights / static_cast<double>(particleHandler.getSize());

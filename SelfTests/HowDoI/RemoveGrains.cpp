@@ -6,7 +6,7 @@ namespace {
 struct RemoveGrains : FirstDriver {
     void actionsAfterTimeStep() override {
         if (getNumberOfTimeSteps() % 100 != 0) return;
-        gather();  // with mpirun: all ranks look at all particles, and remove the same ones
+        gather();  // with mpirun: all ranks have all particles, and remove the same ones
         std::vector<std::uint32_t> gone;
         for (GrainReference grain : particleHandler)
             if (grain.getPosition().x() > 0.0105) gone.push_back(grain.getId());

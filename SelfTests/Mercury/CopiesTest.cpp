@@ -2,6 +2,7 @@
 // that move and thin ones.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -86,6 +87,14 @@ TEST(MercuryPrograms, constantMassFlowMaserBoundaryMixedSpecies) {
     EXPECT_TRUE(b0->isActivated());
     // The box is at -3 to 2, the flow begins at 5.
     std::multiset<double> expected, found;
+    // And what its file ConstantMassFlowMaserBoundaryMixedSpeciesSelfTest.restart has at this time: along the
+    // slope, and across it, where they bounce with a mixed species; up to round-off that contacts have grown.
+    const std::vector<std::array<double, 3>> there = {
+        {1.25391883720073, 0.842943862145995, -0.129898673854822},
+        {-1.74608116279927, 0.816983442767539, -0.173461800156977},
+        {11.2539188372007, 0.816983442767539, -0.173461800156977},
+        {9.25391883720072, 0.842943862145995, -0.129898673854822},
+        {6.25391883720073, 0.816983442767539, -0.173461800156977}};
     const double t = scene.getTime(), way = t + 0.5 * std::sin(angle) * t * t;
     int fed = 0;
     for (const double start : {-1.0, 1.0}) {
@@ -99,14 +108,26 @@ TEST(MercuryPrograms, constantMassFlowMaserBoundaryMixedSpecies) {
     auto e = expected.begin();
     for (const double x : found) EXPECT_NEAR(x, *e++, 1e-9);
     EXPECT_EQ(fed, 3);
+    for (const auto& [x, z, speed] : there) {
+        int same = 0;
+        for (const GrainReference grain : scene.particleHandler) {
+            if (scene.getCopies().isCopy(grain.getId()) || std::abs(grain.getPosition().x() - x) > 0.1)
+                continue;
+            ++same;
+            helpers::check(grain.getPosition(), {x, 0, z}, 1e-11, "position");
+            helpers::check(grain.getVelocity(), {2.62695055035076, 0, speed}, 1e-11, "velocity");
+        }
+        EXPECT_EQ(same, 1) << x;
+    }
     EXPECT_EQ(scene.getCopies().numberFed(), 3u);
 }
 
-/// The scene of SubcriticalMaserBoundarySelfTest: pairs in rows that do not meet.
+/// The scene of SubcriticalMaserBoundarySelfTest: pairs in rows that do not meet each other's.
 struct Rows : Scene1 {
     explicit Rows(double end) {
         auto species = addSpecies(*this, 1, 2e5);
-        species->setDissipation(2.5);
+        species->setDensity(6.0 / constants::pi);
+        species->setDissipation(25);
         setTimeStep(species->getCollisionTime(1) / 50);
         setTimeMax(end);
         setMin(0, 0, 0), setMax(5, 2, 50);
@@ -133,7 +154,9 @@ struct Rows : Scene1 {
 TEST(MercuryPrograms, subcriticalMaserBoundary) {
     Rows early(0.9);
     early.solve();
-    const double e = early.speciesHandler.getObject(0)->getRestitutionCoefficient(1);
+    // A grain of radius 1 has 8 kg.
+    const double e = early.speciesHandler.getObject(0)->getRestitutionCoefficient(8);
+    EXPECT_NEAR(early.particleHandler.getObject(0).getMass(), 8, 1e-14);
     EXPECT_GT(e, 0.9);
     const auto speeds = [&](double row) {
         std::vector<double> found;
@@ -163,6 +186,39 @@ TEST(MercuryPrograms, subcriticalMaserBoundary) {
 
     Rows late(5);
     late.solve();
+    // All grains of its file SubcriticalMaserBoundarySelfTest.restart, up to round-off that contacts have
+    // grown: row (m), place (m), speed (m/s).
+    const std::vector<std::array<double, 3>> there = {{0, 1.00001222550073, 1},
+                                                      {0, 6.0000122255027, 1},
+                                                      {3, -4.00001222549876, -1},
+                                                      {6, 0.999987774497296, -1},
+                                                      {9, 0.124993989070791, 1.77206019083336},
+                                                      {9, 2.69361535591399, 0.947559133924084},
+                                                      {9, 5.12499398907057, 1.77206019083336},
+                                                      {9, 7.74084559443158, 0.948966156396489},
+                                                      {12, 1.20544564600981, 1.07804810754514},
+                                                      {12, 3.62380512186621, 1.89164804714017},
+                                                      {12, 6.63926836474172, 1.91010177914983},
+                                                      {12, 9.67793533012791, 1.929130520484},
+                                                      {12, 12.7408578199365, 1.94896615640007},
+                                                      {15, 0.104213640866833, -0.978332058617531},
+                                                      {15, 6.39577413365407, -0.0216679413824686},
+                                                      {18, 3.60422586636596, 0.021667941382941},
+                                                      {18, 9.89578635911891, 0.97833205861706},
+                                                      {21, -3.00001222549653, -1},
+                                                      {21, 5.5, 0}};
+    std::vector<std::array<double, 3>> here;
+    for (const GrainReference grain : late.particleHandler)
+        if (!late.getCopies().isCopy(grain.getId()))
+            here.push_back(
+                {std::round(grain.getPosition().z()), grain.getPosition().x(), grain.getVelocity().x()});
+    std::ranges::sort(here);
+    ASSERT_EQ(here.size(), there.size());
+    for (std::size_t k = 0; k < there.size(); ++k) {
+        EXPECT_EQ(here[k][0], there[k][0]) << k;
+        EXPECT_NEAR(here[k][1], there[k][1], 1e-11) << k;
+        EXPECT_NEAR(here[k][2], there[k][2], 1e-11) << k;
+    }
     // Through the right face: one more, a box behind. To the left, or back from the flow: it goes on.
     const auto places = [&](double r) {
         std::vector<double> found;
@@ -284,6 +340,38 @@ TEST(MercuryPrograms, timeDependentPeriodicBoundary) {
         EXPECT_NEAR(grain.getVelocity().x(), 0.1, 1e-15);
     }
     EXPECT_EQ(grainsAlong(scene, 1, 0.5).size(), 1u);
+}
+
+// The grain of TimeDependentPeriodicBoundary3DSelfTest flies through a face whose image is shifted, twice,
+// and through those of two periods: from the first line of its file .data to the end in its file .restart.
+TEST(MercuryPrograms, timeDependentPeriodicBoundaryOfAFreeGrain) {
+    Scene1 scene;
+    addSpecies(scene, 0.05, 1000);
+    addGrain(scene, 0.05, {1.28890043749576, -0.0743639813043513, 0.451551026244135},
+             {0.20857273553631, 0.0783600587599351, -0.17045049940194});
+    scene.setTimeStep(5e-3);  // there 5e-4 s: nothing touches
+    scene.setTimeMax(50);
+    auto tdpb = scene.boundaryHandler.copyAndAddObject(TimeDependentPeriodicBoundary());
+    tdpb->set(
+        Vec3D(0, 1, 0), -1, 1, [](double) { return Vec3D(1.25, 0, 0); },
+        [](double) { return Vec3D(0, 0, 0); });
+    tdpb->setMaxShift(3);
+    scene.boundaryHandler.copyAndAddObject(PeriodicBoundary())->set(Vec3D(1, 0, 0), 0, 3);
+    scene.boundaryHandler.copyAndAddObject(PeriodicBoundary())->set(Vec3D(0, 0, 1), 0, 1);
+    scene.solve();
+    int found = 0;
+    for (const GrainReference grain : scene.particleHandler) {
+        if (scene.getCopies().isCopy(grain.getId())) continue;
+        ++found;
+        // To round-off of 100 000 steps.
+        EXPECT_NEAR(std::remainder(grain.getPosition().x() - 0.217537214303937, 3), 0, 1e-10);
+        EXPECT_NEAR(grain.getPosition().y(), -0.156361043307317, 1e-10);
+        EXPECT_NEAR(std::remainder(grain.getPosition().z() - 0.929026056145927, 1), 0, 1e-10);
+        EXPECT_NEAR(
+            (grain.getVelocity() - Vec3D(0.20857273553631, 0.0783600587599351, -0.17045049940194)).norm(), 0,
+            1e-14);
+    }
+    EXPECT_EQ(found, 1);
 }
 
 // A grain in a period of its own width touches itself on both sides: it does not move, and where its spin

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -121,7 +122,8 @@ TEST(MercuryPrograms, cgParticleWall) {
     const auto contact = dpm.interactionHandler.getObject(0);
     const Vec3D position = dpm.particleHandler.getObject(0)->getPosition();
     // The contact point is on the surface of the wall here, there in the middle of the overlap.
-    const Mdouble distance = contact->getDistance(), overlap = contact->getOverlap();
+    const Mdouble distance = std::hypot(0.05, 0.95), overlap = 1 - distance;  // m
+    EXPECT_NEAR(contact->getDistance(), distance, 1e-15);
     EXPECT_NEAR((contact->getContactPoint() - position).norm(), distance, 1e-15);
     helpers::check(O->getPoint(0).getContactStress().trace(), 2e5 * overlap * distance / 16, 1e-11,
                    "Average stress");
@@ -273,7 +275,7 @@ public:
         setDimension(dimensions);
         setDomain({0, 0, flat ? -0.5 : 0}, {5, 5, flat ? 0.5 : 5});
         auto species = speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
-        species->setDensity(6.0 / constants::pi * (flat ? 2. / 3. : 1));
+        species->setDensity(flat ? 6.0 / constants::pi * 2. / 3. : 1.9098593);
         species->setCollisionTimeAndRestitutionCoefficient(.01, .1, 1.);
         setGravity(flat ? Vec3D(0, -1, 0) : Vec3D(0, 0, -1));
         SphericalParticle P0(species);
@@ -293,27 +295,57 @@ public:
     }
 };
 
+/// A grain of a column along an axis as in MercuryDPM's restart file, and the force on the floor (N).
+struct InColumn {
+    double place, speed;  // m, m/s
+};
+void expectColumns(Packing& scene, int axis, std::size_t floor, double force,
+                   const std::array<InColumn, 5>& there) {
+    for (const auto grain : scene.particleHandler) {
+        // Of round-off: 1e-16 of 5 m, and what the stiffness makes of it in a step.
+        const auto& [place, speed] = there[static_cast<std::size_t>(grain->getPosition()[axis])];
+        EXPECT_NEAR(grain->getPosition()[axis], place, 1e-13);
+        EXPECT_NEAR(grain->getVelocity()[axis], speed, 1e-12);
+    }
+    EXPECT_NEAR(scene.wallHandler.getObject(floor)->getForce()[axis], force, 1e-8);
+}
+
+// While it still settles, as in its file CubicPackingSelfTest.restart.
 TEST(MercuryPrograms, cubicPacking) {
     Packing problem(3);
     problem.setTimeMax(0.2);
     auto Z = problem.cgHandler.copyAndAddObject(CG<CGCoordinates::Z, CGFunctions::Gauss>(0.1, 500));
     auto O = problem.cgHandler.copyAndAddObject(CG<CGCoordinates::O>());
     problem.solve();
-    EXPECT_NEAR(O->getPoint(0).getDensity(), 1, 1e-12);
+    const double density = 1.9098593 * constants::pi / 6;  // kg/m^3, of the box
+    EXPECT_NEAR(O->getPoint(0).getDensity(), density, 1e-12);
     // A tenth of the width apart; what of the Gauss is cut off, at e^-4.5 of its peak, ends between points.
-    EXPECT_NEAR(Z->evaluateAverage().getDensity(), 1,
+    EXPECT_NEAR(Z->evaluateAverage().getDensity(), density,
                 0.1 * 2 * std::exp(-4.5) / std::sqrt(2 * constants::pi));
+    expectColumns(problem, 2, 4, -142.116248235575,
+                  {{{0.499925348298183, -8.89450904496229e-05},
+                    {1.49986458715971, -0.000170684436175048},
+                    {2.49981836718401, -0.000238596019239987},
+                    {3.49978722890879, -0.000287178013207875},
+                    {4.4997715590188, -0.000312494530746674}}});
 }
 
+// At rest nearly, as in its file SquarePackingSelfTest.restart.
 TEST(MercuryPrograms, squarePacking) {
     Packing problem(2);
-    problem.setTimeMax(1);
+    problem.setTimeMax(1 + 2e-4);  // there is one step more, by round-off
     auto O = problem.cgHandler.copyAndAddObject(CG<CGCoordinates::O>());
     problem.solve();
     EXPECT_NEAR(O->getPoint(0).getDensity(), 1, 1e-12);
     // The floor bears the discs. The slowest swing of a column of five on a floor has the stiffness 4 k
     // sin^2(pi / 22) = 0.081 k, and decays by its dashpots, g/2m = 115/s, with 9.3/s: to 1e-4 of the weight.
     EXPECT_NEAR(problem.wallHandler.getObject(2)->getForce().y(), -25, 25 * std::exp(-9.3));
+    expectColumns(problem, 1, 2, -25.0017033096029,
+                  {{{0.499934083168255, -2.30760505779415e-07},
+                    {1.49988134925286, -4.42826070762204e-07},
+                    {2.49984179853538, -6.19016735492553e-07},
+                    {3.49981543124975, -7.45057968314721e-07},
+                    {4.49980224756333, -8.10739198021876e-07}}});
     for (auto grain : problem.particleHandler) {
         EXPECT_NEAR(grain->getMass(), 1, 1e-14);
         EXPECT_EQ(grain->getVelocity().z(), 0);

@@ -74,6 +74,17 @@ TEST(MercuryPrograms, distributionLogNormal) {
     EXPECT_NEAR(psd.getMinRadius(), std::exp(-0.75), 1e-12);
     EXPECT_NEAR(psd.getMaxRadius(), std::exp(0.75), 1e-12);
     EXPECT_NEAR(PSD::getDistributionNormal(0.001, 0.0001, 50).getMinRadius(), 0.0007, 1e-15);
+    // The shares of the 12 208 grains of its file DistributionSelfTestPSD.csv up to some diameters (m, the
+    // ends of its bins): by Kolmogorov and Smirnov within 1.63 / sqrt(n), which one sample in a hundred is
+    // not.
+    for (const auto& [diameter, share] : {std::pair(1.34527, 0.056111),
+                                          {1.67663, 0.237549},
+                                          {1.90858, 0.420134},
+                                          {2.17367, 0.626802},
+                                          {2.47189, 0.802097},
+                                          {2.80325, 0.914073}})
+        EXPECT_NEAR(psd.sizes().cumulative(SizeBasis::Number, diameter), share, 1.63 / std::sqrt(12208))
+            << diameter;
 }
 
 // Tables in files of MercuryDPM's form, of three sorts of grains in one boundary.

@@ -44,8 +44,12 @@ TEST(MercuryPrograms, freeFall) {
     // is the share (omega h)^2 of the grain's.
     const double share = 8e6 / species.getMassFromRadius(0.005) * 1e-12;
     EXPECT_NEAR(energy, 9.8 * 0.095, share * 9.8 * 0.09);
-    EXPECT_GT(grain->getVelocity().y(), 0);
     EXPECT_EQ(grain->getPosition().x(), 0.005);
+    // What its file FreeFallSelfTest.ene has at this time, to its digits.
+    const double mass = species.getMassFromRadius(0.005);
+    EXPECT_GT(grain->getVelocity().y(), 0);
+    EXPECT_NEAR(grain->getPosition().y(), 0.09279417012, 5e-12);
+    EXPECT_NEAR(0.5 * mass * grain->getVelocity().squaredNorm(), 2.23127081e-05, 5e-15);
 }
 
 // A grain rolls down a plane of 15 degrees without sliding.
@@ -222,21 +226,26 @@ TEST(MercuryPrograms, consistencyOfInitialOverlap) {
     EXPECT_GT(first.z(), 0.01);  // it has been pushed out
 }
 
-// A wall that moves into a grain does the same as a grain that moves into the wall.
+// A wall that moves into a grain, or below it, does the same as a grain that moves into the wall, or on it.
 class MovingWall : public MercuryScene<LinearViscoelasticSlidingFrictionSpecies> {
 public:
-    MovingWall(const Vec3D& ofGrain, const Vec3D& ofWall) {
+    MovingWall(bool isTangential, const Vec3D& ofGrain, const Vec3D& ofWall) {
         setTimeStep(0.0002);
         setTimeMax(1.0);
         setMax(2, 2, 2);
         auto species = speciesHandler.copyAndAddObject(LinearViscoelasticSlidingFrictionSpecies());
         species->setDensity(6.0 / constants::pi);
-        species->setCollisionTimeAndRestitutionCoefficient(0.01, 1.0, 1.0);
+        species->setCollisionTimeAndRestitutionCoefficient(0.01, isTangential ? 0.5 : 1.0, 1.0);
         species->setSlidingStiffness(species->getStiffness() * 2.0 / 7.0);
         SphericalParticle grain(species);
         grain.setRadius(0.5);
-        grain.setPosition(Vec3D(1.0, 1.0, 1.0));
+        grain.setPosition(Vec3D(1.0, 1.0, isTangential ? 0.5 : 1.0));
         grain.setVelocity(ofGrain);
+        if (isTangential) {
+            setGravity(Vec3D(0, 0, -1));
+            species->setSlidingFrictionCoefficient(0.5);
+            species->setSlidingDissipation(species->getDissipation());
+        }
         particleHandler.copyAndAddObject(grain);
         InfiniteWall wall;
         wall.setSpecies(species);
@@ -247,49 +256,65 @@ public:
 };
 
 TEST(MercuryPrograms, movingWall) {
-    MovingWall reference({0, 0, -2}, {0, 0, 0}), moving({0, 0, -1}, {0, 0, 1});
-    reference.solve();
-    moving.solve();
-    const auto grain = reference.particleHandler.getLastObject(),
-               other = moving.particleHandler.getLastObject();
-    helpers::check(other->getPosition(), grain->getPosition() + Vec3D(0, 0, reference.getTime()), 1e-10,
-                   "position");
-    helpers::check(other->getVelocity(), grain->getVelocity() + Vec3D(0, 0, 1), 1e-10, "velocity");
-    EXPECT_GT(grain->getVelocity().z(), 1.9);  // it has bounced
+    for (const bool isTangential : {false, true}) {
+        const Vec3D frame = isTangential ? Vec3D(1, 0, 0) : Vec3D(0, 0, 1);  // m/s, of the wall that moves
+        MovingWall reference(isTangential, isTangential ? Vec3D(-1, 0, 0) : Vec3D(0, 0, -2), {0, 0, 0}),
+            moving(isTangential, isTangential ? Vec3D(0, 0, 0) : Vec3D(0, 0, -1), frame);
+        reference.solve();
+        moving.solve();
+        const auto grain = reference.particleHandler.getLastObject(),
+                   other = moving.particleHandler.getLastObject();
+        helpers::check(other->getPosition(), grain->getPosition() + reference.getTime() * frame, 1e-10,
+                       "position");
+        helpers::check(other->getVelocity(), grain->getVelocity() + frame, 1e-10, "velocity");
+        helpers::check(other->getAngularVelocity(), grain->getAngularVelocity(), 1e-10, "angular velocity");
+        if (!isTangential) {
+            EXPECT_GT(grain->getVelocity().z(), 1.9);  // it has bounced
+            continue;
+        }
+        // It rolls: 5/7 of the speed, as sliding has changed the spin by 5/2 of what it took, on a lever that
+        // is less by half of the overlap m g / k, which is 4e-5 of the radius.
+        EXPECT_NEAR(grain->getVelocity().x(), -5. / 7, 1e-4);
+        EXPECT_NEAR(0.5 * grain->getAngularVelocity().y(), -5. / 7, 1e-4);
+    }
 }
 
 // A grain in outer space, and one under gravity, of any species: Mercury3D.
 class LonelyGrain : public Mercury3D {
 public:
+    Vec3D position, velocity;  // m, m/s
+    LonelyGrain(const Vec3D& at, const Vec3D& with) : position(at), velocity(with) {}
     void setupInitialConditions() override {
         auto species = speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
         species->setDensity(2500.0);
         species->setStiffness(258.5);
         SphericalParticle grain;
         grain.setSpecies(speciesHandler.getObject(0));
-        grain.setRadius(0.005);
-        grain.setPosition(Vec3D(0.1, 0.1, 0.5));
-        grain.setVelocity(Vec3D(0.5, 0.1, 0.1));
+        grain.setRadius(0.05);
+        grain.setPosition(position);
+        grain.setVelocity(velocity);
         particleHandler.copyAndAddObject(grain);
     }
 };
 
 TEST(MercuryPrograms, outerSpaceAndGravity) {
-    for (const double gravity : {0.0, -9.8}) {
-        LonelyGrain scene;
-        scene.setGravity(Vec3D(0.0, 0.0, gravity));
-        scene.setMax(1, 1, 1);
-        scene.setTimeStep(1e-4);
-        scene.setTimeMax(0.3);
+    for (const bool falls : {false, true}) {
+        LonelyGrain scene(falls ? Vec3D(0.5, 0.5, 5) : Vec3D(0.1, 0.1, 0.1),
+                          falls ? Vec3D(0, 0, 0) : Vec3D(0.5, 0.1, 0.1));
+        const Vec3D gravity(0.0, 0.0, falls ? -9.81 : 0.0);
+        scene.setGravity(gravity);
+        scene.setMax(1, 1, falls ? 5 : 1);
+        scene.setTimeStep(0.005 / 50.0);
+        scene.setTimeMax(falls ? 1.5 : 2.0);
         scene.setQuiet();
         scene.solve();
         const double t = scene.getTime();
         const auto grain = scene.particleHandler.getObject(0);
-        // Exact for a constant force, up to the round-off of 3000 steps.
-        helpers::check(grain->getPosition(),
-                       {0.1 + 0.5 * t, 0.1 + 0.1 * t, 0.5 + 0.1 * t + 0.5 * gravity * t * t}, 1e-12,
-                       "position");
-        helpers::check(grain->getVelocity(), {0.5, 0.1, 0.1 + gravity * t}, 1e-12, "velocity");
+        // Exact for a constant force, up to the round-off of 20 000 steps: half a bit of 5 m, and of 15 m/s,
+        // each.
+        helpers::check(grain->getPosition(), scene.position + t * scene.velocity + 0.5 * t * t * gravity,
+                       1e-11, "position");
+        helpers::check(grain->getVelocity(), scene.velocity + t * gravity, 2e-11, "velocity");
     }
 }
 

@@ -181,6 +181,7 @@ TEST(MercuryPrograms, particleIn2DBoxWithObstacle) {
 class Prism : public Box2D {
 public:
     double nearest = 1;
+    Vec3D afterFirst = Vec3D::Zero();  // m/s, after the first touch
 
     Prism() : Box2D(0.5, {0.15 * 0.5, 0.3335 * 0.5, 0}, {1.2, 0.2, 0}) {}
     void setupInitialConditions() override {
@@ -200,7 +201,9 @@ public:
     }
     void actionsAfterTimeStep() override {
         Box2D::actionsAfterTimeStep();
-        nearest = std::min(nearest, outsideSquare(particleHandler.getObject(0)->getPosition(), getTime()));
+        const auto grain = particleHandler.getObject(0);
+        nearest = std::min(nearest, outsideSquare(grain->getPosition(), getTime()));
+        if (touches == 1 && before == 0 && afterFirst.isZero()) afterFirst = grain->getVelocity();
     }
 };
 
@@ -208,11 +211,28 @@ TEST(MercuryPrograms, prismWalls) {
     Prism scene;
     scene.setTimeMax(2);
     scene.solve();
-    // The rim of the prism goes at up to 0.18 m/s, which the grain may take up at each touch.
     EXPECT_LT(scene.nearest, Box2D::radius);
     EXPECT_GT(scene.nearest, 0);
     EXPECT_EQ(scene.particleHandler.getObject(0)->getVelocity().z(), 0);
     EXPECT_EQ(scene.particleHandler.getObject(0)->getPosition().z(), 0);
+    // The first touch begins where the straight way meets the face that has turned by then.
+    const Vec3D start = scene.position, speed = scene.velocity;
+    double before = 0, begin = 0.1;  // s
+    for (int k = 0; k < 60; ++k) {
+        const double time = 0.5 * (before + begin);
+        if (outsideSquare(start + time * speed, time) > Box2D::radius) before = time;
+        else begin = time;
+    }
+    // Elastic, it is turned back from the face as that is in the middle of the touch.
+    const double touch = constants::pi / scene.omega(), middle = begin + 0.5 * touch;
+    const Vec3D normal(-std::cos(middle), -std::sin(middle), 0), along(normal.y(), -normal.x(), 0),
+        place = start + begin * speed - Box2D::radius * normal + 0.5 * touch * speed.dot(along) * along,
+        ofFace = Vec3D(0, 0, 1).cross(place - Vec3D(0.25, 0.25, 0)),
+        expected = speed - 2 * (speed - ofFace).dot(normal) * normal;
+    // Its ends lie in steps, and the face turns by 0.7 % of a radian in it.
+    EXPECT_LT(
+        (scene.afterFirst - expected).norm(),
+        speed.norm() * (mathsFunc::square(scene.omega() * scene.getTimeStep()) + mathsFunc::square(touch)));
 }
 
 // Discs that meet the faces and the edges of a triangle, at rest and in a moving frame.
@@ -500,60 +520,164 @@ TEST(MercuryPrograms, rollingAndTorsionFriction) {
         // (When it sticks again the torque swings otherwise than there, where a spring that slides is
         // shortened together with its dashpot: SpringSlider.h.)
         EXPECT_NEAR(force, 62.4801, 5e-5);
+        // While it sticks, at the end of the first step: the torque of spring and dashpot by a lever of 2 R*,
+        // at the spin in the middle of the step. Its first line, 2.7622 N m, is that of a spring which the
+        // forces at the start have stretched for a step already; here they only read it.
+        const auto* const species = scene.speciesHandler.getObject(0);
+        const double h = scene.getTimeStep(), square = 0.5 * 0.5, inertia = 0.1,
+                     spring = square * species->getRollingStiffness() * h,
+                     dashpot = square * species->getRollingDissipation(),
+                     spinThere = 1 - h * (spring + dashpot) / inertia, spin = 1 - h * dashpot / inertia;
+        EXPECT_NEAR(spring * (1 + spinThere) + dashpot * spinThere, 2.7622, 5e-5);
+        EXPECT_NEAR(scene.torques[0], (spring + dashpot) * spin, 1e-9);
         for (const std::size_t step : {5u, 10u, 20u, 30u})
             EXPECT_NEAR(scene.torques[step], 3.12401, 5e-6) << step;
     }
 }
 
 // Three grains on a slope of 20 degrees: without friction, with that of sliding, and with that of rolling.
-TEST(MercuryPrograms, threeGrainsOnAnInclinedPlane) {
-    MercuryScene<LinearViscoelasticFrictionSpecies> problem;
-    const double angle = constants::pi / 180.0 * 20.0;
-    problem.setSystemDimensions(3);
-    problem.setGravity(Vec3D(sin(angle), 0.0, -cos(angle)) * 9.81);
-    problem.setXMax(0.3);
-    problem.setYMax(0.3);
-    problem.setZMax(0.05);
-    problem.setTimeMax(0.4);
-    problem.setTimeStep(0.005 / 50.0);
-    std::vector<LinearViscoelasticFrictionSpecies*> species;
-    for (const auto& [sliding, rolling] : {std::pair(0.0, 0.0), std::pair(0.5, 0.0), std::pair(0.5, 0.5)}) {
-        const auto set = [&, s = sliding, r = rolling](auto& laws) {
-            laws.setStiffness(259.018);
+class InclinedPlane : public MercuryScene<LinearViscoelasticFrictionSpecies> {
+public:
+    static constexpr double radius = 0.005, stiffness = 259.018, gravity = 9.81;
+    const double angle;
+
+    explicit InclinedPlane(double degrees) : angle(degrees * constants::degree) {
+        setSystemDimensions(3);
+        setGravity(Vec3D(sin(angle), 0.0, -cos(angle)) * gravity);
+        setXMax(0.3);
+        setYMax(0.3);
+        setZMax(0.05);
+        setTimeMax(0.4);
+        setTimeStep(0.005 / 50.0);
+        setQuiet();
+    }
+    /// A grain beside the others, of a species of its own, that touches the plane.
+    GrainReference add(double sliding, double rolling, double dashpot = 0, double overlap = 0) {
+        const auto set = [&](auto& laws) {
+            laws.setStiffness(stiffness);
             laws.setDissipation(0.0334);
             laws.setSlidingStiffness(2.0 / 7.0 * laws.getStiffness());
             laws.setRollingStiffness(2.0 / 5.0 * laws.getStiffness());
-            laws.setSlidingFrictionCoefficient(s);
-            laws.setRollingFrictionCoefficient(r);
-            laws.setRollingFrictionCoefficientStatic(r);
+            laws.setSlidingDissipation(dashpot);
+            laws.setRollingDissipation(dashpot);
+            laws.setSlidingFrictionCoefficient(sliding);
+            laws.setRollingFrictionCoefficient(rolling);
+            laws.setRollingFrictionCoefficientStatic(rolling);
         };
         LinearViscoelasticFrictionSpecies own;
         own.setDensity(2500.0);
         set(own);
-        species.push_back(problem.speciesHandler.copyAndAddObject(own));
-        if (species.size() > 1) set(*problem.speciesHandler.getMixedObject(species[0], species.back()));
-        SphericalParticle p0(species.back());
-        p0.setRadius(0.005);
-        p0.setPosition(Vec3D(0.015, 0.06 * static_cast<double>(species.size()), p0.getRadius()));
-        problem.particleHandler.copyAndAddObject(p0);
+        auto* const species = speciesHandler.copyAndAddObject(own);
+        const std::size_t number = speciesHandler.getSize();
+        if (number > 1) set(*speciesHandler.getMixedObject(speciesHandler.getObject(0), species));
+        else wallHandler.copyAndAddObject(InfiniteWall({0, 0, -1}, {0, 0, 0}, species));
+        SphericalParticle p0(species);
+        p0.setRadius(radius);
+        p0.setPosition(Vec3D(0.015, 0.06 * static_cast<double>(number) - 0.057, p0.getRadius() - overlap));
+        return particleHandler.copyAndAddObject(p0);
     }
-    problem.wallHandler.copyAndAddObject(InfiniteWall({0, 0, -1}, {0, 0, 0}, species[0]));
-    problem.setQuiet();
+    [[nodiscard]] double pull() const { return gravity * std::sin(angle); }   // m/s^2
+    [[nodiscard]] double press() const { return gravity * std::cos(angle); }  // m/s^2
+    [[nodiscard]] static double mass() { return sphereMass(radius, 2500); }
+    /// m, of a grain at rest.
+    [[nodiscard]] double overlap() const { return mass() * press() / stiffness; }
+};
+
+// What friction takes from the speed v, a grain has as spin w: v + 2/5 r^2 w / l = g sin(angle) t, where l is
+// the lever, to the middle of the overlap d. d swings between 0 and twice its value at rest, and decays.
+void expectMomentum(const InclinedPlane& scene, const GrainReference& grain, double start) {
+    const double r = InclinedPlane::radius, d = scene.overlap(), spin = grain.getAngularVelocity().y();
+    EXPECT_NEAR(grain.getVelocity().x() + 0.4 * r * r * spin / (r - 0.5 * d),
+                start + scene.pull() * scene.getTime(), 0.4 * spin * 0.5 * d);
+}
+
+// And where it rolls, its surface swings on the spring of sliding, k_t = 2/7 k, about what bears 2/7 of the
+// weight along the slope. The spring bears mu N at most: up to v = (mu g cos - 2/7 g sin) m / sqrt(k_t m_t)
+// with m_t = 2/7 m. (Nothing damps it, and the grain has begun without a force that could bear it.)
+void expectRolling(const InclinedPlane& scene, const GrainReference& grain, double friction) {
+    const double lever = InclinedPlane::radius - 0.5 * scene.overlap(), spin = grain.getAngularVelocity().y(),
+                 swing = (friction * scene.press() - scene.pull() * 2 / 7) * 3.5 /
+                         std::sqrt(InclinedPlane::stiffness / InclinedPlane::mass());
+    EXPECT_LT(std::abs(grain.getVelocity().x() - spin * lever), swing + spin * 0.5 * scene.overlap());
+}
+
+TEST(MercuryPrograms, threeGrainsOnAnInclinedPlane) {
+    InclinedPlane problem(20);
+    const auto smooth = problem.add(0, 0), rolls = problem.add(0.5, 0), stays = problem.add(0.5, 0.5);
     problem.solve();
-    const auto speed = [&](std::size_t k) { return problem.particleHandler.getObject(k)->getVelocity().x(); };
-    const double slides = 9.81 * sin(angle) * 0.4;
-    EXPECT_NEAR(speed(0), slides, 1e-12);
-    // Rolling, on a lever that is less by half the overlap of 1 % of the radius; it swings by 0.2 %.
-    EXPECT_NEAR(speed(1), 5.0 / 7.0 * slides, 0.01 * slides);
+    EXPECT_NEAR(smooth.getVelocity().x(), problem.pull() * 0.4, 1e-12);
+    EXPECT_EQ(smooth.getAngularVelocity().norm(), 0);
+    expectMomentum(problem, rolls, 0);
+    expectRolling(problem, rolls, 0.5);
     // tan(20 degrees) = 0.36 < 0.5: it stays, and swings on its springs, by up to m g sin / sqrt(k m). Its
     // first bounces leave it without force now and then, until they decay in 2 m / g: less than it would roll
     // by then.
-    const double mass = problem.particleHandler.getObject(2)->getMass();
-    const double pull = mass * 9.81 * sin(angle), spring = 2.0 / 7.0 * 259.018;
-    EXPECT_LT(std::abs(speed(2)), pull / std::sqrt(spring * mass));
+    const double mass = InclinedPlane::mass(), spring = 2.0 / 7.0 * InclinedPlane::stiffness;
+    EXPECT_LT(std::abs(stays.getVelocity().x()), mass * problem.pull() / std::sqrt(spring * mass));
     const double bounces = 2 * mass / 0.0334;  // s
-    EXPECT_NEAR(problem.particleHandler.getObject(2)->getPosition().x(), 0.015,
-                0.5 * 5.0 / 7.0 * pull / mass * bounces * bounces);
+    EXPECT_NEAR(stays.getPosition().x(), 0.015, 0.5 * 5.0 / 7.0 * problem.pull() * bounces * bounces);
+}
+
+// With a friction below 2/7 of the slope a grain slides from the start on. Of the normal force it has felt
+// m (g cos t + v_z) by then, and of friction mu times as much; its spin has grown by that on the lever.
+TEST(MercuryPrograms, aGrainSlidesOnAnInclinedPlane) {
+    InclinedPlane problem(20);
+    const double friction = 0.05, h = problem.getTimeStep();
+    const auto grain = problem.add(friction, 0);
+    problem.solve();
+    const double felt = problem.press() * problem.getTime() + grain.getVelocity().z();  // m/s
+    // In its first step of touch it holds less than it could.
+    const double first =
+        friction * InclinedPlane::stiffness * 0.5 * problem.press() * h * h * h / InclinedPlane::mass();
+    EXPECT_NEAR(grain.getVelocity().x(), problem.pull() * problem.getTime() - friction * felt, first);
+    expectMomentum(problem, grain, 0);
+    const double r = InclinedPlane::radius;
+    EXPECT_NEAR(grain.getAngularVelocity().y(),
+                2.5 * friction * felt * (r - 0.5 * problem.overlap()) / (r * r),
+                2.5 * friction * felt * 0.5 * problem.overlap() / (r * r));
+    EXPECT_GT(grain.getVelocity().x() - r * grain.getAngularVelocity().y(), 0.5);
+}
+
+// Without spin at the start it slides until v = w r, after 2 v / (7 mu g cos - 2 g sin) or so, and rolls
+// then.
+TEST(MercuryPrograms, aGrainSlidesAndRollsOnAnInclinedPlane) {
+    InclinedPlane problem(20);
+    const double friction = 0.5, start = 1;
+    auto grain = problem.add(friction, 0, 0, problem.overlap());
+    grain.setVelocity({start, 0, 0});
+    const double slides = 2 * start / (7 * friction * problem.press() - 2 * problem.pull());  // s
+    problem.setTimeMax(0.9 * slides);
+    problem.solve();
+    EXPECT_NEAR(grain.getVelocity().x(),
+                start + (problem.pull() - friction * problem.press()) * problem.getTime(), 1e-3 * start);
+    expectMomentum(problem, grain, start);
+    InclinedPlane longer(20);
+    auto same = longer.add(friction, 0, 0, longer.overlap());
+    same.setVelocity({start, 0, 0});
+    longer.solve();
+    expectMomentum(longer, same, start);
+    expectRolling(longer, same, friction);
+}
+
+// With dashpots of sliding and rolling a grain comes to rest on a slope of 10 degrees: down from its start by
+// the stretch of the spring of sliding, and by what turns it in that of rolling, whose lever is 2 R* = 2 r.
+// (With R* it would turn four times as far.) Its overlap is that at rest, and what the slope asks of friction
+// at most, 2 tan(10 degrees), is below it.
+TEST(MercuryPrograms, aGrainRestsOnAnInclinedPlane) {
+    InclinedPlane problem(10);
+    const auto grain = problem.add(0.5, 0.5, 0.1, problem.overlap());
+    problem.setTimeMax(0.6);
+    problem.solve();
+    const double force = InclinedPlane::mass() * problem.pull(), r = InclinedPlane::radius,
+                 lever = r - 0.5 * problem.overlap(), stretch = force / (2. / 7 * InclinedPlane::stiffness),
+                 turn = force * lever / (2. / 5 * InclinedPlane::stiffness * 4 * r * r);  // m, rad
+    // What is left of the swing is its speed over its rate. They began with 0.01 m/s: speeds that are below
+    // e^-15 of it after 0.6 s have a rate above 25/s.
+    const double speed =
+        std::abs(grain.getVelocity().x()) + r * std::abs(grain.getAngularVelocity().y());  // m/s
+    EXPECT_LT(speed, 0.01 * std::exp(-15));
+    const double left = speed / 25;
+    EXPECT_NEAR(grain.getPosition().x() - 0.015, stretch + turn * lever, left + 1e-7 * stretch);
 }
 
 // The solid that a triangle makes by turning, and a plane as one of this kind.
@@ -679,6 +803,22 @@ TEST(MercuryPrograms, getDistanceAndNormalForTriangleWalls) {
             } else EXPECT_EQ(nearest, infinity) << x << ' ' << z;
         }
     EXPECT_GT(touched, 300u);
+    // And some lines of its file GetDistanceAndNormalForTriangleWalls.out, beside the stair and at its edges:
+    // x, z and the overlap there, to six digits.
+    for (const auto& [x, z, overlap] : {std::array{-0.82, -0.85, 0.00790627},
+                                        {-0.82, -0.74, 0.0735089},
+                                        {-0.82, -0.3, 0.08},
+                                        {-0.81, 0.1, 0.0513393},
+                                        {-0.8, 0.05, 0.0881966},
+                                        {-0.8, -0.87, 0.00276917}}) {
+        particle.setPosition({x, 0, z});
+        double nearest = infinity, distance = 0;
+        Vec3D normal;
+        for (std::size_t k = 0; k < scene.wallHandler.getNumberOfObjects(); ++k)
+            if (scene.wallHandler.getObject(k)->getDistanceAndNormal(particle, distance, normal))
+                nearest = std::min(nearest, distance);
+        EXPECT_NEAR(0.2 - nearest, overlap, 5e-6 * overlap + 5e-9) << x << ' ' << z;
+    }
 }
 
 // A wall that turns about y, as a plane, as an intersection of one plane and as a solid of revolution: a

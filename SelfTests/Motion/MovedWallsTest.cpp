@@ -7,10 +7,12 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <string>
 
 #include "Kernel/Simulation/StabilityAdvice.h"
 #include "Kernel/Simulation/StepForError.h"
 #include "Kernel/Walls/Membrane.h"
+#include "SelfTests/Superquadrics/FewSuperquadrics.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Walls/Bodies/BodyScene.h"
 
@@ -288,6 +290,223 @@ TEST(MovedWalls, stepsByTouchesKnowThem) {
         const double before = run.moving();
         run.step(2000);
         EXPECT_LT(run.moving(), 1e-2 * before) << mass;
+    }
+}
+
+// --- On held grains
+
+/// A piston at rest on held grains side by side; none is free.
+struct OnHeldGrains : BodyScene<Linear> {
+    OnHeldGrains(int count, double mass, double step, double dissipation = 0, double speed = 0)
+        : BodyScene(smooth(dissipation), columns(count, 1), step) {
+        for (GrainReference grain : particleHandler) grain.fixParticle();
+        InfiniteWall lid;
+        lid.set({0, 0, 1}, {0, 0, heightOf(1)});
+        lid.setVelocity({0, 0, speed});
+        lid.setPiston(mass, count * k * overlap);
+        add(lid);
+    }
+    [[nodiscard]] double speed() {
+        return std::abs(dynamic_cast<InfiniteWall&>(wallHandler.getObject(0)).getDrivenVelocity());
+    }
+    /// m/s, over a number of steps
+    [[nodiscard]] double largestSpeed(int steps) {
+        double most = 0;
+        for (int n = 0; n < steps; ++n) {
+            step();
+            most = std::max(most, speed());
+        }
+        return most;
+    }
+};
+
+/// s, the largest step of a squared frequency w^2 and a rate g: (h w)^2 / 4 + b h g = 1, with b = 1/2 for
+/// velocity Verlet and 1 for the default where nothing of the dashpots is implicit.
+double largestStep(double squared, double rate, const Integrator& scheme) {
+    const double b = scheme == integrators::velocityVerlet ? 0.5 : 1;
+    return 2 / (b * rate + std::sqrt(b * b * rate * rate + squared));
+}
+/// Of n k / M and n c / M.
+double limitOnHeld(int count, double mass, double dissipation, const Integrator& scheme) {
+    return largestStep(count * k / mass, count * dissipation / mass, scheme);
+}
+
+constexpr std::array bothSchemes{integrators::velocityVerlet, integrators::predictedVelocityVerlet};
+
+// The limit of the scene has the factor 0.9 for contacts that crowd or are pressed deeper; the bound of the
+// contacts that there are is exact, because all of their stiffness is the piston's.
+TEST(MovedWalls, aPistonOnHeldGrainsAloneHasItsOwnLimit) {
+    for (const Integrator& scheme : bothSchemes)
+        for (const int count : {1, 3})
+            for (const double mass : {100., 1., 0.01})
+                for (const double ratio : {0., 0.3}) {
+                    const double dissipation = 2 * ratio * std::sqrt(mass * m * k / count),
+                                 exact = limitOnHeld(count, mass * m, dissipation, scheme);
+                    OnHeldGrains scene(count, mass * m, 0.1 * exact, dissipation);
+                    scene.setIntegrator(scheme);
+                    EXPECT_NEAR(scene.stabilityLimit(), 0.9 * exact, 1e-12 * exact);
+                    scene.initialise();
+                    EXPECT_NEAR(scene.stableStepOfContacts(), exact, 1e-9 * exact)
+                        << scheme.name << " " << count << " " << mass << " " << ratio;
+                    EXPECT_EQ(scene.stabilityAdvice().wall, 0);
+                }
+    OnHeldGrains none(3, m, 1);
+    none.setHeldContacts(HeldContacts::None);  // nothing carries it
+    EXPECT_EQ(none.stabilityLimit(), infinity);
+}
+
+// The energy of velocity Verlet is kept but for 1 / (1 - (h w)^2 / 4): a speed grows by 1 / sqrt(1 - 0.9^2) =
+// 2.3 at most. At 1.05 of the exact limit a step multiplies it by exp(arcosh(2 1.05^2 - 1)) = 1.88.
+TEST(MovedWalls, runsOnHeldGrainsStandTheLimitAndAreRefusedAboveIt) {
+    for (const Integrator& scheme : bothSchemes)
+        for (const int count : {1, 3}) {
+            const double exact = limitOnHeld(count, m, 0, scheme), limit = 0.9 * exact, speed = 1e-9;
+            OnHeldGrains below(count, m, 0.999 * limit, 0, speed);
+            below.setIntegrator(scheme);
+            below.initialise();
+            EXPECT_LT(below.largestSpeed(2000), 2.4 * speed) << scheme.name << count;
+
+            OnHeldGrains refused(count, m, 1.001 * limit);
+            refused.setIntegrator(scheme);
+            const std::string said = support::refusal([&] { refused.initialise(); });
+            EXPECT_TRUE(support::isOneSentence(said));
+            EXPECT_TRUE(support::contains(said, "wall 0: mass of the piston = "));
+            EXPECT_TRUE(support::contains(said, "is too light for a time step of"));
+            EXPECT_TRUE(support::contains(said, count == 1 ? "with up to 1 contacts" : "up to 3 contacts"));
+
+            OnHeldGrains above(count, m, 1.05 * exact, 0, speed);
+            above.setIntegrator(scheme);
+            above.acceptUnstableTimeStep();
+            above.initialise();
+            EXPECT_GT(above.largestSpeed(14), 1e2 * speed) << scheme.name << count;
+        }
+}
+
+// The least mass that the refusal names is enough, also with two pistons, which held grains do not couple.
+TEST(MovedWalls, theMassThatARefusalNamesIsEnough) {
+    const auto make = [](double mass) {
+        auto scene = std::make_unique<OnHeldGrains>(3, mass, 0.9 * limitOnHeld(3, m, 0, bothSchemes[0]));
+        InfiniteWall other;
+        other.set({0, 0, -1}, {0, 0, 0});
+        other.setPiston(m, 3 * k * overlap);
+        scene->add(other);
+        return scene;
+    };
+    EXPECT_EQ(support::refusal([&] { make(m)->initialise(); }), "");
+    const std::string said = support::refusal([&] { make(0.5 * m)->initialise(); });
+    const std::string_view before = "it must be at least ";
+    ASSERT_TRUE(support::contains(said, before));
+    EXPECT_FALSE(support::contains(said, "together"));
+    const double least = std::stod(said.substr(said.find(before) + before.size()));
+    EXPECT_NEAR(least, m, 2e-3 * m);
+    EXPECT_EQ(support::refusal([&] { make(least)->initialise(); }), "");
+}
+
+// A grain that is free beside a held one, on a floor, with the piston on both: 2 x 2. The bound has the
+// diagonals of (1 + t) and (1 + 1/t), with t = m / M the load of the piston over that of the grain.
+TEST(MovedWalls, heldAndFreeGrainsShareAPiston) {
+    for (const double mass : {10., 1., 0.1, 0.01}) {
+        UnderAPiston scene(2, 1, mass * m, 1e-9);
+        scene.particleHandler.getObject(0).fixParticle();
+        scene.setIntegrator(integrators::velocityVerlet);
+        scene.initialise();
+        const double ofGrain = k / m, ofLid = k / (mass * m), between = std::sqrt(ofGrain * ofLid);
+        Eigen::Matrix2d matrix;
+        matrix << 2 * ofGrain, -between, -between, 2 * ofLid;
+        const double exact = 2 / std::sqrt(largestOf(matrix)),
+                     ofBlocks = 2 / std::sqrt(std::max(2 * ofGrain + ofLid, 2 * ofLid + ofGrain));
+        EXPECT_NEAR(scene.stableStepOfContacts(), ofBlocks, 1e-6 * ofBlocks) << mass;
+        EXPECT_LE(scene.stableStepOfContacts(), exact * (1 + 1e-9)) << mass;
+        EXPECT_GE(scene.stableStepOfContacts(), exact / 1.2) << mass;
+        EXPECT_LE(scene.stabilityLimit(), exact) << mass;
+    }
+}
+
+TEST(MovedWalls, heldGrainsCarryBodies) {
+    const double arm = 2e-3;
+    for (const double mass : {1., 0.01}) {
+        UnderASheet slider(0), rotor(arm), free(0);
+        slider.lid->setSlider({0, 0, 1}, {.mass = mass * m});
+        rotor.lid->setRotor({0, 1, 0}, {-arm, 0, heightOf(1)}, {.inertia = mass * m * arm * arm});
+        free.lid->setFreeBody({.mass = mass * m,
+                               .centre = {0, 0, heightOf(1)},
+                               .inertia = 1e9 * m * arm * arm * Eigen::Matrix3d::Identity()});
+        const double exact = 2 / std::sqrt(k / (mass * m));
+        for (UnderASheet* const scene : {&slider, &rotor, &free}) {
+            scene->particleHandler.getObject(0).fixParticle();
+            EXPECT_NEAR(scene->bound(), exact, 1e-6 * exact) << mass;
+            EXPECT_LE(scene->stabilityLimit(), 0.9 * exact * (1 + 1e-9)) << mass;  // at its farthest point
+        }
+    }
+}
+
+// Grains of a held clump, and superquadrics that are held.
+TEST(MovedWalls, heldGrainsOfOtherKindsCarryAPiston) {
+    const double dissipation = 0.1 * std::sqrt(m * k);
+    OnHeldGrains clump(2, m, 1e-9, dissipation);
+    for (GrainReference grain : clump.particleHandler) grain.fixParticle(false);
+    clump.bodyHandler.join(std::vector<std::uint32_t>{0, 1}).fixBody();
+    clump.initialise();
+    const double ofTwo = limitOnHeld(2, m, dissipation, clump.getIntegrator());
+    EXPECT_NEAR(clump.stableStepOfContacts(), ofTwo, 1e-6 * ofTwo);
+    EXPECT_NEAR(clump.stabilityLimit(), 0.9 * ofTwo, 1e-6 * ofTwo);
+
+    scenes::FewSuperquadrics<Linear> shaped(smooth(dissipation),
+                                            {{.shape = {r, r, r}, .position = {0, 0, r - overlap}}}, 1e-9);
+    shaped.body(0).fixBody();
+    InfiniteWall lid;
+    lid.set({0, 0, 1}, {0, 0, heightOf(1)});
+    lid.setSpecies(shaped.speciesHandler.getObject(0));
+    lid.setPiston(m, k * overlap);
+    shaped.wallHandler.copyAndAddObject(lid);
+    shaped.setQuiet();
+    shaped.initialise();
+    const double ofOne = limitOnHeld(1, m, dissipation, shaped.getIntegrator());
+    EXPECT_NEAR(shaped.stableStepOfContacts(), ofOne, 1e-6 * ofOne);
+    EXPECT_NEAR(shaped.stabilityLimit(), 0.9 * ofOne, 1e-6 * ofOne);
+}
+
+// A vertex of mass M has the weights of a layer of grains on each side of its share of the sheet, at least of
+// one on each: 2 k / M, or k over the mass of the sheet on the area of half a layer.
+TEST(MovedWalls, heldGrainsCarryAMembrane) {
+    BodyScene<Linear> scene(smooth(), {{.radius = r, .position = {0, 0, r - overlap}, .fixed = true}}, 1e-9);
+    std::vector<Triangle> triangles = membraneSheet(4, 4, 2e-3);
+    for (Triangle& triangle : triangles)
+        for (Vector<double>& corner : triangle) corner -= Vector<double>{4e-3, 3.3e-3, 0};
+    Membrane net;
+    net.set(triangles, {.youngsModulus = 1e5, .thickness = 1e-4, .density = 100});
+    net.holdRim();
+    const Membrane& added = *scene.add(net);
+    const double layers = 1 / (std::sqrt(3.) * r * r * added.massOfArea()),
+                 squared = added.squaredFrequency() + k * std::max(2 / added.lightestVertex(), layers);
+    const double limit = scene.stabilityLimit(),
+                 exact = largestStep(squared, added.getDamping(), scene.getIntegrator());
+    EXPECT_NEAR(limit, 0.9 * exact, 1e-9 * exact);
+    scene.initialise();
+    const double bound = scene.stableStepOfContacts();
+    // A third of the contact at least is one vertex's.
+    EXPECT_LE(bound, 2 / std::sqrt(k / (3 * 3 * added.lightestVertex())));
+    EXPECT_LT(bound, 2 / std::sqrt(added.squaredFrequency()));
+    EXPECT_GE(bound, limit);
+}
+
+// pi sqrt(M / k), whatever the mass of the grain, and the steps that are chosen by it: 0.9 / w by beds.
+TEST(MovedWalls, stepsByTouchesOnHeldGrains) {
+    for (const double mass : {10., 1., 0.1}) {
+        const double dissipation = 0.1 * std::sqrt(m * k);
+        OnHeldGrains scene(1, mass * m, 1e-9, dissipation);
+        EXPECT_NEAR(scene.shortestContactTime(), std::numbers::pi * std::sqrt(mass * m / k),
+                    1e-12 * scene.shortestContactTime());
+        const StepForError found = scene.stepForError(0.05, 0.1);
+        EXPECT_NEAR(found.byBeds,
+                    std::min(0.9 * std::sqrt(mass * m / k),
+                             0.9 * limitOnHeld(1, mass * m, dissipation, scene.getIntegrator())),
+                    1e-9 * found.byBeds);
+        OnHeldGrains run(1, mass * m, found.step, dissipation, 1e-9);
+        run.initialise();
+        // c / M is c / m over the ratio of masses: e^(-c t / 2M) is 1e-2 after 9.2 M / c.
+        run.step(static_cast<std::size_t>(std::ceil(20 * mass * m / dissipation / found.step)));
+        EXPECT_LT(run.speed(), 1e-2 * 1e-9) << mass;
     }
 }
 

@@ -119,9 +119,7 @@ TEST_F(Mpi, allEndWhereOneFails) {
           {"kill", "1", ""}}) {
         SCOPED_TRACE(what);
         const std::string own = in(what);
-        const auto begin = std::chrono::steady_clock::now();
         const ProgramResult result = run(onRanks(2) + program + own + " 200 " + what + " " + rank);
-        EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
         EXPECT_NE(result.exitCode, 0);
         EXPECT_NE(result.exitCode, 124) << "it has not ended by itself";
         EXPECT_EQ(countOf(result.output, "Error: "), sentence.starts_with("Error") ? 1u : 0u)
@@ -165,7 +163,6 @@ TEST_F(LongMpi, allEndWhereOneHasEndedEarly) {
         const ProgramResult result = run(onRanks(ranks) + program + own + " 200 leave 1");
         const auto lasted = std::chrono::steady_clock::now() - begin;
         EXPECT_GT(lasted, std::chrono::seconds(29));
-        EXPECT_LT(lasted, std::chrono::seconds(90));
         EXPECT_NE(result.exitCode, 0);
         EXPECT_NE(result.exitCode, 124) << "it has not ended by itself";
         EXPECT_EQ(countOf(result.output, "Error: A rank has ended while others waited for it"), 1u)

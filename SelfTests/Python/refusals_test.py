@@ -131,6 +131,21 @@ MISUSES = {
     "spray of a light liquid": (lambda s: spray(s, liquid_density=-1000), "density of the liquid = -1000"),
     "cone with an edge": (lambda s: spray(s, edge1=(1, 0, 0)), "cone_angle"),
     "a flux of vapour": (lambda s: s.set_evaporation(flux=1e-3, humidity=0.5), "humidity"),
+    "a flux of a liquid": (lambda s: s.set_evaporation(flux=1e-7, liquid_density=1000), "liquid_density is of mass_transfer"),
+    # What is read in another case alone
+    "shear share of a parallel bond": (
+        lambda s: s.add_bond_material(1e-4, normal_stiffness=1e12, shear_stiffness=4e11, shear_share=0.5), "shear_share is of a beam"),
+    "shear share of a function": (
+        lambda s: s.add_bond_material(1e-4, stiffness=lambda length: (1e4, 1e4, 1e-3, 1e-3), shear_share=0.9), "shear_share is of a beam"),
+    "centre of a clump without mass": (lambda s: pendular.clump([[0, 0, 0, 1e-3]], centre=(0, 0, 1e-4)), "centre .* mass .* inertia"),
+    "centre of joined grains without mass": (lambda s: s.join([0, 1], centre=(0, 0, 1e-4)), "centre .* mass .* inertia"),
+    "the side of a tube": (lambda s: s.add_cylinder(s.glass, (0, 0, 1), (0, 0, 0), 1, length=1, grains_inside=False), "leave grains_inside out"),
+    "fixed grains that are held": (lambda s: s.add_grains(s.glass, [[0, 0, 1]], 1e-3, fixed=True, held="z"), "held = 'z'"),
+    "points of no contacts": (lambda s: s.write_hdf5(1e-3, contacts=False, contact_points=True), "contacts=False"),
+    "an interval without wear": (
+        lambda s: s.add_mesh(s.glass, [[[0, 0, 9], [1, 0, 9], [0, 1, 9]]]).keep_wear("none", interval=1), "leave interval"),
+    "density of a body with its mass": (
+        lambda s: s.add_mesh(s.glass, [[[0, 0, 9], [1, 0, 9], [0, 1, 9]]]).set_free_body(density=1000, mass=1), "takes no mass"),
     "spray without a shape": (
         lambda s: s.add_spray(flow=1, droplet_radius=1, speed=1, nozzle=(0, 0, 0), direction=(0, 0, 1)), "cone_angle"),
 }

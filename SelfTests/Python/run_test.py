@@ -94,26 +94,21 @@ def test_errors_of_the_kernel_keep_their_class():
     assert isinstance(caught.value, pendular.RunError)
 
 
-def interrupt_after(seconds, clock=time.perf_counter):
-    sent = []
-
+def interrupt_after(seconds):
     def send():
         time.sleep(seconds)
-        sent.append(clock())
         os.kill(os.getpid(), signal.SIGINT)
 
     threading.Thread(target=send, daemon=True).start()
-    return sent
 
 
 def test_control_c_between_steps():
-    """Within 0.1 s and a step on a free machine; the bound here is that of a busy one. The scene goes on."""
+    """A run that would take years ends; the scene goes on. Tools/Python/measure-overheads.py measures how soon."""
     scene = tower("run")
     scene.keep_restart_file()
-    sent = interrupt_after(0.2)
+    interrupt_after(0.2)
     with pytest.raises(KeyboardInterrupt):
         scene.run(1e6)
-    assert time.perf_counter() - sent[0] < 1
     stopped, bits = scene.time, scene.hash()
     other = tower("other")
     other.restart_from("run-restart.h5")
@@ -143,14 +138,14 @@ def test_control_c_in_a_function():
 
 @pytest.mark.parametrize("shape", [None, pendular.clump([[0, 0, -0.4, 0.5], [0, 0, 0.4, 0.5]])], ids=["grains", "clumps"])
 def test_control_c_in_a_dense_insertion(shape):
-    """It would take 10 s of the processor. The scene is as before, and can go on."""
+    """It would take 10 s of the processor, and is not done to its end. The scene is as before, and can go on."""
     scene, count = tower(), 200_000 if shape is None else 40_000
-    sent = interrupt_after(0.7, time.process_time)
+    interrupt_after(0.7)
     edge = (count * 1e-9 / 0.55) ** (1 / 3)
     with pytest.raises(KeyboardInterrupt):
         scene.insert(scene.glass, pendular.even_sizes(1.1e-3, 1.3e-3),
                      pendular.box((0, 0, 0.1), (edge, edge, 0.1 + edge)), shape=shape, number=count)
-    assert time.process_time() - sent[0] < 1.5 and len(scene) == 4  # s; most of it before the first look
+    assert len(scene) == 4
     plain = tower()
     scene.run(steps=100)
     plain.run(steps=100)

@@ -131,6 +131,10 @@ TEST(Disagreement, ofTheSetUpIsNamed) {
                {where, "walls/count is "});
     expectTold(sentenceOf([](Box& box) { box.heated->holdWall(0, 500); }),
                {where, "parts/heat/wall0/temperature is 400 K on rank 0 and 500 K on rank 1"});
+    expectTold(sentenceOf([](Box& box) { box.wallHandler.getObject(2).keepForces(); }),
+               {where, "the list of walls whose forces are kept is empty on rank 0 and 2 on rank 1"});
+    expectTold(sentenceOf([](Box& box) { box.setHeldContacts(HeldContacts::All); }),
+               {where, "heldContacts is 0 on rank 0 and 1 on rank 1"});
     expectTold(sentenceOf([](Box& box) { box.setSaveCount(7); }), {where, "setSaveCount()"});
     expectTold(sentenceOf([](Box& box) { box.setIntegrator(integrators::velocityVerlet); }),
                {where, "integrator"});
@@ -145,6 +149,10 @@ TEST(Disagreement, ofHooksIsNamed) {
                {where, after, "gravity is (0, 0, -9.81) m/s^2 on rank 0 and (0, 0, -5) m/s^2 on rank 1"});
     expectTold(sentenceOf({}, [](Box& box) { box.requestPause(); }),
                {where, "requestPause() is not called on rank 0 and called on rank 1"});
+    expectTold(sentenceOf({}, [](Box& box) { box.setHeldContacts(HeldContacts::None); }),
+               {where, after, "setHeldContacts() is WhereAsked on rank 0 and None on rank 1"});
+    expectTold(sentenceOf({}, [](Box& box) { box.wallHandler.getObject(2).keepForces(); }),
+               {where, after, "the list of walls whose forces are kept is empty on rank 0 and 2 on rank 1"});
     expectTold(sentenceOf({}, [](Box& box) { box.heated->holdWall(0, 500); }),
                {where, "parts/heat/settingsChanged is 0 on rank 0 and 1 on rank 1"});
     expectTold(sentenceOf({},

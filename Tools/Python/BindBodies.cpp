@@ -29,15 +29,19 @@ Eigen::Matrix3d matrixOf(const ArrayLike& given, std::string_view name) {
     return matrix;
 }
 
-std::optional<BodyMass> massOf(std::optional<double> mass, const Vec3D& centre,
+std::optional<BodyMass> massOf(std::optional<double> mass, const std::optional<Vec3D>& centre,
                                const std::optional<ArrayLike>& inertia) {
     if (mass.has_value() != inertia.has_value())
         throw InputError("mass (kg) and inertia (3 x 3, kg m^2) of a body are given together.");
+    if (centre && !mass)
+        throw InputError(
+            "centre (m) of a body is given with mass (kg) and inertia (3 x 3, kg m^2); without them it is "
+            "computed; leave it out.");
     if (!mass) return {};
-    return BodyMass{*mass, centre, matrixOf(*inertia, "inertia")};
+    return BodyMass{*mass, centre.value_or(Vec3D(0, 0, 0)), matrixOf(*inertia, "inertia")};
 }
 
-AnyShape clump(const ArrayLike& spheres, std::optional<double> mass, const Vec3D& centre,
+AnyShape clump(const ArrayLike& spheres, std::optional<double> mass, const std::optional<Vec3D>& centre,
                const std::optional<ArrayLike>& inertia) {
     const auto given = massOf(mass, centre, inertia);
     const std::vector<Ball> balls = ballsOf(spheres);
@@ -80,7 +84,7 @@ std::uint32_t addShape(PythonScene& scene, const SpeciesHandle& species, const A
 }
 
 std::uint32_t join(PythonScene& scene, const ArrayLike& identities, std::optional<double> mass,
-                   const Vec3D& centre, const std::optional<ArrayLike>& inertia) {
+                   const std::optional<Vec3D>& centre, const std::optional<ArrayLike>& inertia) {
     return scene.scene()
         .bodyHandler
         .join(std::span<const std::uint32_t>(identitiesOf(identities, "identities")),
@@ -147,10 +151,11 @@ void bindBodies(py::module_& module, SceneClass& scene) {
                                std::array{"clump", "superquadric", "block"}[s.of.index()]);
         });
     module.def("clump", &clump, py::arg("spheres"), py::kw_only(), py::arg("mass") = py::none(),
-               py::arg("centre") = Vec3D(0, 0, 0), py::arg("inertia") = py::none(),
+               py::arg("centre") = py::none(), py::arg("inertia") = py::none(),
                comment("ClumpTemplate",
                        "spheres: N x 4 numbers, x, y, z and radius, in m, or in any unit where sizes scale "
-                       "them. mass: kg, centre: of mass, and inertia: 3 x 3, kg m^2, about it: of the shape "
+                       "them. mass: kg, centre: of mass, the origin where it is not given, and inertia: 3 x "
+                       "3, kg m^2, about it: of the shape "
                        "as it is given; without them, those of the solid that the spheres make."));
     module.def(
         "superquadric",
@@ -174,10 +179,11 @@ void bindBodies(py::module_& module, SceneClass& scene) {
              "z of any length that turns the shape. velocity: m/s, spin: rad/s. scale: the factor of all "
              "lengths.")
         .def("join", &join, py::arg("identities"), py::kw_only(), py::arg("mass") = py::none(),
-             py::arg("centre") = Vec3D(0, 0, 0), py::arg("inertia") = py::none(),
+             py::arg("centre") = py::none(), py::arg("inertia") = py::none(),
              comment("BodyHandler::join",
                      "identities: of the grains. mass: kg, centre: m, of mass, in space, as the grains are "
-                     "now, and inertia: 3 x 3, kg m^2, about it. Returns the number of the body."))
+                     "now (the origin where it is not given), and inertia: 3 x 3, kg m^2, about it. Returns "
+                     "the number of the body."))
         .def("bodies", &bodies,
              "Columns of all rigid bodies, in the order of their numbers: body (the number), mass_kg, "
              "volume_m3; position_m, velocity_m_per_s, spin_rad_per_s, force_N and torque_Nm, along the axes "

@@ -37,7 +37,7 @@ Stiffness stiffnessBy(PythonScene& scene, py::function function) {
 }
 
 Stiffness stiffnessOf(PythonScene& scene, std::optional<double> young, std::optional<double> shear,
-                      double shearShare, std::optional<double> normalPerArea,
+                      std::optional<double> shearShare, std::optional<double> normalPerArea,
                       std::optional<double> shearPerArea, std::optional<py::function> function) {
     const bool isBeam = young && shear, isParallel = normalPerArea && shearPerArea;
     const bool hasHalf =
@@ -46,6 +46,10 @@ Stiffness stiffnessOf(PythonScene& scene, std::optional<double> young, std::opti
         throw InputError(
             "add_bond_material() takes young_modulus and shear_modulus (Pa) of a beam, or normal_stiffness "
             "and shear_stiffness (Pa/m) of a parallel bond, or a function stiffness.");
+    if (shearShare && !isBeam)
+        throw InputError(
+            "add_bond_material(): shear_share is of a beam, with young_modulus and shear_modulus (Pa); leave "
+            "it out.");
     if (function) return stiffnessBy(scene, std::move(*function));
     constexpr std::string_view owner = "bond material";
     if (isParallel) {
@@ -55,18 +59,18 @@ Stiffness stiffnessOf(PythonScene& scene, std::optional<double> young, std::opti
     }
     checkValue(owner, "young_modulus", *young, "Pa", positive);
     checkValue(owner, "shear_modulus", *shear, "Pa", positive);
-    if (!(shearShare > 0))
-        throw InputError(fmt::format(
-            "bond material: shear_share = {:g}; it must be greater than 0, or infinite.", shearShare));
-    return
-        [=](const BondSection& s, double length) { return beamBond(*young, *shear, shearShare, s, length); };
+    const double share = shearShare.value_or(0.9);
+    if (!(share > 0))
+        throw InputError(
+            fmt::format("bond material: shear_share = {:g}; it must be greater than 0, or infinite.", share));
+    return [=](const BondSection& s, double length) { return beamBond(*young, *shear, share, s, length); };
 }
 
 std::size_t addMaterial(PythonScene& scene, double radius, std::optional<double> young,
-                        std::optional<double> shear, double shearShare, std::optional<double> normalPerArea,
-                        std::optional<double> shearPerArea, std::optional<py::function> stiffness,
-                        double tensileStrength, double shearStrength, double momentShare, bool atEnds,
-                        double damping) {
+                        std::optional<double> shear, std::optional<double> shearShare,
+                        std::optional<double> normalPerArea, std::optional<double> shearPerArea,
+                        std::optional<py::function> stiffness, double tensileStrength, double shearStrength,
+                        double momentShare, bool atEnds, double damping) {
     const BondMaterial material{
         radius,
         stiffnessOf(scene, young, shear, shearShare, normalPerArea, shearPerArea, std::move(stiffness)),
@@ -120,13 +124,14 @@ void bindBonds(SceneClass& scene) {
     scene
         .def("add_bond_material", &addMaterial, py::arg("radius"), py::kw_only(),
              py::arg("young_modulus") = py::none(), py::arg("shear_modulus") = py::none(),
-             py::arg("shear_share") = 0.9, py::arg("normal_stiffness") = py::none(),
+             py::arg("shear_share") = py::none(), py::arg("normal_stiffness") = py::none(),
              py::arg("shear_stiffness") = py::none(), py::arg("stiffness") = py::none(),
              py::arg("tensile_strength") = infinity, py::arg("shear_strength") = infinity,
              py::arg("moment_share") = 1.0, py::arg("at_ends") = true, py::arg("damping") = 0.0,
              "What bonds are made of; returns its number for bond(). At set-up the first one.\n\n"
              "radius: m, of the round section. Its stiffness is that of Timoshenko's beam (young_modulus "
-             "and shear_modulus, Pa; shear_share: 0.9, infinite for Euler's), or of a parallel bond of "
+             "and shear_modulus, Pa; shear_share: 0.9 without it, infinite for Euler's), or of a parallel "
+             "bond of "
              "Potyondy and Cundall (normal_stiffness and shear_stiffness, Pa/m), or stiffness(length) "
              "returns the normal, shear (N/m), bending and twist (N m/rad) one. It breaks at "
              "tensile_strength or shear_strength (Pa) at the rim; moment_share (0 to 1): how much moments "

@@ -39,6 +39,11 @@ py::array add(PythonScene& scene, const SpeciesHandle& species, const ArrayLike&
               const ArrayLike& radius, const ArrayLike& velocity, const ArrayLike& spin,
               const ArrayLike& film, bool fixed, const std::string& held) {
     scene.requireNoViews();
+    if (fixed && !held.empty())
+        throw InputError(
+            fmt::format("add_grains(): fixed grains are held along and about all axes; held = '{}' must be "
+                        "left out.",
+                        held));
     const Doubles places = rowsOf(position, "position", 3);
     const py::ssize_t count = places.size() == 0 ? 0 : places.shape(0);
     const PerGrain radii(radius, "radius", 1, count), velocities(velocity, "velocity", 3, count),

@@ -45,6 +45,10 @@ void setEvaporation(PythonScene& scene, std::optional<double> flux, std::optiona
         throw InputError(
             "set_evaporation(): saturated_vapour and humidity are of mass_transfer, and flux does not need "
             "them; leave them out.");
+    if (flux && liquidDensity && !diffusivity && !vapourDifference)
+        throw InputError(
+            "set_evaporation(): liquid_density is of mass_transfer, or of droplets with diffusivity and "
+            "vapour_difference; flux alone does not need it; leave it out.");
     if (flux) law.setFlux(*flux);
     else
         law.setMassTransfer(*massTransfer, saturatedVapour.value_or(unset), liquidDensity.value_or(unset),

@@ -105,6 +105,9 @@ void keepWear(const WallHandle& wall, const std::string& law, std::optional<doub
         throw InputError(
             "keep_wear(): acceleration is of vertices that move by the wear; give the interval (s) between "
             "their moves too.");
+    if (interval && law == "none")
+        throw InputError(
+            "keep_wear('none') wears nothing off, so that no vertices move; leave interval (s) out.");
     if (!interval) return mesh.keepWear(worn);
     mesh.keepWear(worn, {.interval = *interval, .acceleration = acceleration});
 }

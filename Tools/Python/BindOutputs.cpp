@@ -63,6 +63,10 @@ using Functions = std::map<std::string, py::function>;
 template <class Output>
 void addFrames(PythonScene& scene, Output output, double interval, bool contacts, bool contactPoints,
                bool stress, bool doubles, const Functions& numbers, const Functions& vectors) {
+    if (contactPoints && !contacts)
+        throw InputError(
+            "contact_points are columns of the contacts, which contacts=False leaves out; leave one of them "
+            "out.");
     output.withInterval(interval).withContacts(contacts).withContactPoints(contactPoints);
     output.withStress(stress).withDoubles(doubles);
     for (const auto& [name, function] : numbers) {

@@ -49,15 +49,19 @@ WallHandle addPlane(PythonScene& scene, const SpeciesHandle& species, const Vec3
 }
 
 WallHandle addCylinder(PythonScene& scene, const SpeciesHandle& species, const Vec3D& axis,
-                       const Vec3D& point, double radius, bool grainsInside, std::optional<double> length,
-                       bool forces) {
+                       const Vec3D& point, double radius, std::optional<bool> grainsInside,
+                       std::optional<double> length, bool forces) {
     if (length) {
+        if (grainsInside)
+            throw InputError(
+                "add_cylinder(): with length (m) it is a tube with grains on both sides; leave grains_inside "
+                "out.");
         FiniteCylinder wall;
         wall.set(axis, point, radius, *length);
         return addWall(scene, species, wall, forces);
     }
     InfiniteCylinder wall;
-    wall.set(axis, point, radius, grainsInside ? CylinderSide::Inside : CylinderSide::Outside);
+    wall.set(axis, point, radius, grainsInside.value_or(true) ? CylinderSide::Inside : CylinderSide::Outside);
     return addWall(scene, species, wall, forces);
 }
 
@@ -309,14 +313,14 @@ void bindWalls(py::module_& module, SceneClass& scene) {
              "species: the material of its surface. outward: its normal, away from the grains, of any "
              "length; point: m, on it. forces: they are kept, as by keep_forces().")
         .def("add_cylinder", &addCylinder, py::arg("species"), py::arg("axis"), py::arg("point"),
-             py::arg("radius"), py::kw_only(), py::arg("grains_inside") = true,
+             py::arg("radius"), py::kw_only(), py::arg("grains_inside") = py::none(),
              py::arg("length") = py::none(), py::arg("forces") = false,
              "Adds a circular cylinder without ends: a container, or a rod with the grains outside. With a "
              "length (m) it is a thin tube with open ends about the point, and grains may be on both "
              "sides.\n\n"
              "species: the material of its surface. axis: its direction, of any length; point: m, on the "
-             "axis, of a tube its middle; radius: m; grains_inside: else outside. forces: they are kept, as "
-             "by keep_forces().")
+             "axis, of a tube its middle; radius: m; grains_inside: False where they are outside, not with "
+             "length. forces: they are kept, as by keep_forces().")
         .def("add_profile", &addProfile, py::arg("species"), py::arg("axis"), py::arg("point"),
              py::arg("profile"), py::kw_only(), py::arg("forces") = false,
              comment("AxisymmetricWall",

@@ -34,7 +34,7 @@ PartSettings::PartSettings(const py::object& given, const std::string& who) {
             continue;
         }
         const bool areNumbers = isUsable && isNumbers(value);
-        if (!areNumbers && !areGiven) continue;  // an object, a function, what it remembers
+        if (!areNumbers && !areGiven) continue;  // an object, a function, its state
         const Doubles column =
             areNumbers ? Doubles::ensure(py::reinterpret_borrow<py::object>(value)) : Doubles();
         if (!areNumbers || !column) {

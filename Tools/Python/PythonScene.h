@@ -110,13 +110,13 @@ public:
         if (givingVelocities == 0) requireMayChange();
     }
     /// Throws InputError where each rank has its own grains only: in a function that the kernel calls in the
-    /// middle of a step, as for the motion of a wall. Where the script has said leave_grains_on_ranks(), and
-    /// in fields of frames in parts, the rows of the own grains are what is asked for.
+    /// middle of a step, as for the motion of a wall. After leave_grains_on_ranks(), and in fields of
+    /// frames in parts, the rows of the own grains are meant.
     void requireRows(std::string_view what) const;
     /// The same, but also where the script has left the grains on their ranks.
     void requireAllRows(std::string_view what) const;
     void leaveGrainsOnRanks(bool leave);
-    /// For functions that are asked for rows of the own grains.
+    /// For functions that return rows of the own grains.
     template <class Questions>
     auto askForOwnRows(const Questions& questions) {
         const Counted here(askingForOwnRows);

@@ -87,6 +87,7 @@ def arrays(count, repeat):
     for name in ("position", "velocity", "radius", "identity", "force", "mass"):
         yield name, 1e3 * best(lambda: getattr(scene, name), repeat), "ms", targets.get(name)
     yield "view('position')", 1e3 * best(lambda: [scene.view("position") for _ in range(1000)], repeat), "us", 2
+    yield "time, a call that fits", 1e5 * best(lambda: [scene.time for _ in range(10000)], repeat), "ns", None
     yield "grains(), all fields", best(scene.grains, repeat), "s", None
     velocity = np.zeros((count, 3))
     yield "velocity = array", 1e3 * best(lambda: setattr(scene, "velocity", velocity), repeat), "ms", None

@@ -103,8 +103,8 @@ public:
         return endLargest()[0];
     }
 
-    /// All reductions have as many numbers, and say what they are for: ranks that wait in different ones get
-    /// an answer, and find it out by that.
+    /// All reductions have the same length, and carry their purpose: ranks that wait in different ones
+    /// receive a result, and detect the difference by it.
     void beginLargest(Reduction what, const Three& three) override {
         begin(Call::Largest);
         const auto purpose = static_cast<double>(what);

@@ -135,7 +135,7 @@ struct ParhamiMcMeekingSinter {
     [[nodiscard]] BridgeResistance<double> largestResistance(const Bodies& bodies) const {
         return resistanceAt(bodies, 0);
     }
-    /// At an overlap (m), of at least that: for the step that contacts bear as they are.
+    /// At an overlap (m), of at least that: for the critical time step of the current contacts.
     [[nodiscard]] BridgeResistance<double> resistanceAt(const Bodies& bodies, double overlap) const {
         return prepare(bodies).resistanceAt(std::max(overlap, 0.1 * bodies.effectiveRadius()));
     }

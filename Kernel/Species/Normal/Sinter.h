@@ -38,8 +38,8 @@ struct PlasticOverlap {
 ///     u+ = u / (1 + x),  x = k h / eta,
 /// d_p by the share x / (1 + x) of u. A steady force F makes d_p grow by h F / eta in a step however long
 /// that is, as it must. Of Verlet's steps of a mass m on it, y = h^2 k / m, the roots are those of
-/// (1 + x) z^2 - (2 + x - y) z + 1 = 0, within the unit circle for y < 4 + 2 x: the step that the spring
-/// alone bears, y < 4, is stable for any rate.
+/// (1 + x) z^2 - (2 + x - y) z + 1 = 0, within the unit circle for y < 4 + 2 x: the step that is
+/// stable for the spring alone, y < 4, is stable for any rate.
 struct Sinter : PlasticSprings<Sinter> {
     static constexpr std::string_view name = "Sinter";
     static constexpr std::string_view summary =

@@ -21,7 +21,7 @@ using Linear = Species<LinearViscoelastic>;
 using Rough = Species<LinearViscoelastic, SlidingFriction>;
 
 constexpr double g = 9.81;         // m/s^2
-constexpr double asIfHeld = 1e20;  // kg/m^3, of grains that no force moves (held ones touch no walls)
+constexpr double asIfHeld = 1e20;  // kg/m^3, of grains that no force moves
 
 template <class S>
 S material(double stiffness, double dissipation, double density, double friction = 0.5) {

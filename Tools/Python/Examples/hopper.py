@@ -49,7 +49,7 @@ def empty(outlet, fill=0.55):
 
 def flow_of(time, mass, batches=20):
     """kg/s, and its standard error: what has come out over the time, after the first tenth; the error is that of the mean of
-    batches, windows of equal length. (A line through the cumulated mass claims an error that is far too small.)"""
+    batches, windows of equal length. (The standard error of a line fitted to the cumulated mass is far too small.)"""
     steady = mass > 0.1 * mass[-1]
     time, mass = time[steady], mass[steady]
     if len(time) < 6:

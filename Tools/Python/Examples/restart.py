@@ -39,7 +39,7 @@ def main(arguments=None):
     print("whole", whole.hash(), "stopped", second.hash())
     print(pendular.table(folder / "whole-energy.csv")[["time_s", "kinetic_J", "potential_J"]].tail(2).to_string())
     for time, grains in pendular.frames(folder / "whole-fields.h5"):
-        print(f"{time:.3f} s: the top is at {1e3 * np.max(grains['position_m'][:, 2]):.2f} mm")
+        print(f"{time:.3f} s: the highest centre is at {1e3 * np.max(grains['position_m'][:, 2]):.2f} mm")
 
 
 if __name__ == "__main__":

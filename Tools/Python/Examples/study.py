@@ -16,7 +16,8 @@ FRICTIONS = [0.0, 0.1, 0.2, 0.4, 0.8]
 
 
 def heap(friction, time=0.1):
-    """A row: what becomes of a column of grains that falls apart."""
+    """A row, of a column of grains that has fallen apart for a time (s): height_m, of the highest centre above the floor;
+    spread_m, the mean horizontal distance of the centres from the axis of the column; hash, of the state."""
     scene = pendular.Scene()
     glass = scene.add_species("HertzianViscoelasticMindlin", density=2500, young_modulus=5e6, poisson_ratio=0.25,
                               restitution_coefficient=0.5, sliding_friction_coefficient=friction)

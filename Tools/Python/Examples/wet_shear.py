@@ -34,7 +34,9 @@ def make_shear(edge=8):
 
 
 def shear(scene, strain):
-    """Columns of strain, pressure along the gradient (Pa), friction of the bulk, and bridges of a grain."""
+    """Columns, a row each millisecond: strain (shear rate times time); pressure (Pa), the normal stress along the gradient,
+    positive in compression; friction of the bulk, the shear stress over that pressure; bridges of a grain, twice the number of
+    bridges over the number of grains. Stresses are totals: of contacts, bridges and fluctuating velocities."""
     rows = []
 
     def note(scene):
@@ -55,8 +57,8 @@ def main(arguments=None):
     scene = make_shear()
     strain, pressure, friction, bridges = shear(scene, given.strain)
     late = strain > given.strain / 2
-    print(f"pressure {pressure[late].mean():.1f} Pa, friction {friction[late].mean():.3f}, "
-          f"{bridges[late].mean():.2f} bridges of a grain")
+    print(f"means over the second half of the strain: pressure {pressure[late].mean():.1f} Pa, "
+          f"friction {friction[late].mean():.3f}, {bridges[late].mean():.2f} bridges of a grain")
     lowest, lengths = scene.period
     fields = scene.fields("Y", lowest, lowest + lengths, spacing=DIAMETER / 2, width=DIAMETER / 2)
     figure, axes = plt.subplots(1, 2, figsize=(9, 4))

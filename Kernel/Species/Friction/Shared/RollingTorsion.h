@@ -28,7 +28,7 @@ struct RollingTorsionSpring {
 };
 
 /// The lever of a law's rolling or torsion, in effective radii R* = r1 r2 / (r1 + r2), which is r at a wall.
-/// A law says which it takes, as the numbers of a material mean other torques with another one.
+/// Each law has its own, and the numbers of a material mean other torques with another one.
 enum class RotationLever { EffectiveRadius = 1, EffectiveDiameter = 2 };
 
 /// The forces of rolling and torsion: the torque on body 1 over R*.
@@ -40,11 +40,12 @@ struct RotationForces {
 /// Springs, dashpots and sliders against rolling and torsion: each gives a force F = -(k s + g v), at most mu
 /// times the normal force, of the way s of the lever L times the relative turn, and the torque L F on body 1,
 /// the opposite one on body 2: the limit of the torque is mu L F_n, its stiffness k L^2. Law is the law
-/// derived from this; it says its levers, leverOfRolling and leverOfTorsion.
+/// derived from this; it defines its levers, leverOfRolling and leverOfTorsion.
 /// Source: Luding (2008), Granular Matter 10, 235, rolling and torsion resistance. The lever of rolling is R*
-/// by Thornton et al. (2023), equation 4.9. MercuryDPM's FrictionInteraction has 2 R* for both, its
-/// MindlinRollingTorsionInteraction R* for rolling and 2 R* for torsion (read in its sources of 2018 to
-/// 2024).
+/// by Thornton et al. (2023), equation 4.9. MercuryDPM, by its sources: FrictionInteraction has 2 R* for both
+/// in all states read: 126c08fa (2018) and 57a2e5ea (2020) of kuwt/MercuryDPM_fork, and 55f4a5d3 (2024), with
+/// which SelfTests/Mercury compares. MindlinRollingTorsionInteraction has 2 R* for both in 126c08fa, and R*
+/// for rolling and 2 R* for torsion in f44a287c (2020, the same fork) and in 55f4a5d3.
 template <class Law>
 struct RollingTorsion {
     static constexpr bool hasContactTorque = true;
