@@ -94,14 +94,23 @@ public:
         bridge = static_cast<const WetWall&>(*material).prepare({given.radius});
     }
 
-    /// Steps until the sphere is free again, or turns back to the plate.
+    /// Steps until the sphere is free again, or turns back to the plate. Throws InputError where it does
+    /// neither, as with a restitution of nearly 0 or a very viscous liquid.
     WetWallOutcome finish() {
         initialise();
         const EnergyLedger before = energyLedger();
         double weightWork = 0;  // J
         bool touched = false, joined = false;
         WetWallOutcome outcome;
+        const double layers = given.layer / (given.speed * getTimeStep());  // steps
         do {
+            if (static_cast<double>(getNumberOfTimeSteps()) >= 1e4 * (given.stepsPerContact + layers))
+                throw InputError(
+                    "WetWallImpact: the sphere creeps, and has not left the plate after 10 000 times the "
+                    "time "
+                    "of a dry contact and of the way through the layer; the restitution must be larger, or "
+                    "the "
+                    "viscosity smaller.");
             const double from = separation();
             step();
             weightWork += bridgeWeight(from, separation());

@@ -58,8 +58,7 @@ SweepHit SweptSearch::firstHit(const Sweep& sweep, const ParticleStore& grains, 
                                const WallHandler& walls) const {
     SweepHit hit;
     meetGrains(sweep, grains, box, hit);
-    for (std::size_t w = 0; w < walls.getSize(); ++w)
-        if (!walls.isRemoved(w)) meetWall(sweep, walls.getObject(w), static_cast<int>(w), hit);
+    for (const auto& [number, wall] : walls.present()) meetWall(sweep, *wall, static_cast<int>(number), hit);
     return hit;
 }
 

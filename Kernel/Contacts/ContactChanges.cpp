@@ -317,7 +317,6 @@ ChangedContacts ContactSystem::computeChanged(Grains& grains, const ChangedBodie
 
 /// Whether something needs the forces of held grains on a wall.
 static bool needsHeld(const Wall& wall) {
-    if (wall.isRemoved()) return false;
     if (wall.keepsForces() || wall.membrane() != nullptr) return true;
     const auto* const worn = dynamic_cast<const WornWall*>(&wall);
     return worn != nullptr && worn->keepsWear();
@@ -327,10 +326,8 @@ ListedOfHeld ContactSystem::askedOfHeld() const {
     ListedOfHeld asked;
     if (heldContacts == HeldContacts::None) return asked;
     asked.pairs = heldContacts == HeldContacts::All || partsNeedHeld;
-    asked.walls.resize(walls->getSize());
-    for (std::size_t w = 0; w < walls->getSize(); ++w)
-        if (const Wall& wall = walls->getObject(w); !wall.isRemoved())
-            asked.walls[w] = asked.pairs || needsHeld(wall);
+    for (const auto& [number, wall] : walls->present())
+        if (asked.pairs || needsHeld(*wall)) asked.walls.push_back(number);
     return asked;
 }
 
@@ -338,16 +335,12 @@ bool ContactSystem::needsOtherHeld(const Grains& grains) {
     if (!hasHeld) return false;
     // All or none does not change by itself, and adding or removing walls rebuilds the list anyway.
     const bool followsWalls = heldContacts == HeldContacts::WhereAsked && !partsNeedHeld;
-    const auto isOther = [&](std::size_t w) {
-        const Wall& wall = walls->getObject(w);
-        const bool isListed = ofHeld.walls[w];  // membranes and walls that wear are so for good
-        return wall.keepsForces() != isListed && needsHeld(wall) != isListed;
+    const auto isOther = [&](const PresentWall& wall) {
+        const bool isListed = ofHeld.atWall(wall.number);  // membranes and walls that wear are so for good
+        return wall.object->keepsForces() != isListed && needsHeld(*wall.object) != isListed;
     };
     heldIsNew = heldIsNew && askedOfHeld() != ofHeld;
-    bool others = heldIsNew;
-    for (std::size_t w = 0; !others && followsWalls && w < ofHeld.walls.size() && w < walls->getSize(); ++w)
-        others = isOther(w);
-    if (!others) return false;
+    if (!heldIsNew && !(followsWalls && std::ranges::any_of(walls->present(), isOther))) return false;
     // They may have gone, which a rank knows of its own grains only.
     if (allRanks.areSeveral() || areHeldAmong(grains)) return true;
     ofHeld = askedOfHeld();

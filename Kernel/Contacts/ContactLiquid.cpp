@@ -88,6 +88,7 @@ double ContactLiquid::separationOf(const ContactStore& store, const ContactLaws&
 void ContactLiquid::listed(const ContactStore& store, const LiquidLaws& laws) {
     if (!moves()) return;
     walls.resize(std::max(walls.size(), shapes->getSize()));
+    sumRemovedWalls();
     rules.clear();
     for (const Bucket& bucket : store.buckets)
         rules.emplace_back(laws.liquidRules(bucket.species1, bucket.species2).value_or(LiquidRules{}),
@@ -97,6 +98,16 @@ void ContactLiquid::listed(const ContactStore& store, const LiquidLaws& laws) {
         changed.push_back(store.contactAt(static_cast<std::uint32_t>(slot)));
     anyAtFilms = std::ranges::any_of(rules, [](const QuantisedRules& r) { return r.atFilms; });
     anyWetWall = std::ranges::any_of(rules, [](const QuantisedRules& r) { return r.wallDose > 0; });
+}
+
+/// A step goes through the accounts of the walls that there are.
+void ContactLiquid::sumRemovedWalls() {
+    const std::size_t count = walls.size() - shapes->present().size();
+    if (removedWalls == count) return;
+    removedWalls = count;
+    givenByRemoved = 0;
+    for (std::size_t w = 0; w < walls.size(); ++w)
+        if (w >= shapes->getSize() || shapes->isRemoved(w)) givenByRemoved += std::max(-walls[w], 0.0);
 }
 
 bool ContactLiquid::formsAtFilms(const ContactLaws& laws) const {
@@ -249,8 +260,8 @@ void ContactLiquid::move(ContactStore& store, const LiquidLaws& laws, ParticleSt
         }
         events.add(store, contact, grains.identity, Kind::BridgeForms);
     }
-    double fromWalls = 0;
-    for (const double account : walls) fromWalls += std::max(-account, 0.0);
+    double fromWalls = givenByRemoved;
+    for (const PresentWall& wall : shapes->present()) fromWalls += std::max(-walls[wall.number], 0.0);
     if (const auto objection = filmsOfGrains->objectionToMore(fromWalls)) throw RunError(*objection);
 }
 
@@ -387,6 +398,7 @@ LiquidLedger ContactLiquid::ledger(const ContactStore& store, const ParticleStor
 void ContactLiquid::gather() {
     if (!moves()) return;
     for (double& account : walls) account = sumOfRanks(account);
+    removedWalls.reset();
     evaporated = sumOfRanks(evaporated);
     driedOut = ranks.sum(driedOut);
     filmsOfGrains->setAccounts(sumOfRanks(filmsOfGrains->absorbed()), sumOfRanks(filmsOfGrains->removed()));
@@ -395,6 +407,7 @@ void ContactLiquid::gather() {
 void ContactLiquid::leaveToFirstRank() {
     if (!moves()) return;
     std::ranges::fill(walls, 0.0);
+    removedWalls.reset();
     evaporated = 0;
     driedOut = 0;
     filmsOfGrains->setAccounts(0, 0);
@@ -406,7 +419,10 @@ void ContactLiquid::visitState(StateArchive& archive) {
     for (const double account : walls)
         archive.require(filmsOfGrains->isWhole(std::abs(account)), "walls",
                         "has no multiples of the quantum");
-    if (archive.isReading()) looked.clear();  // all films count as just set
+    if (archive.isReading()) {
+        looked.clear();  // all films count as just set
+        removedWalls.reset();
+    }
     archive.finite("evaporated", evaporated);
     archive.require(filmsOfGrains->isWhole(evaporated), "evaporated", "is no multiple of the quantum");
     archive.value("driedBridges", driedOut);

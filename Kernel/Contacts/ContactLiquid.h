@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "Kernel/Contacts/ContactEvents.h"
@@ -213,6 +214,7 @@ private:
         return {store, grains, *filmsOfGrains, rules, walls, formed, changed, filmContacts, {ranks, grains}};
     }
     void remember(const ParticleStore& grains);
+    void sumRemovedWalls();
     /// Own grains among these, and those that others have looked at but own no more, are to be looked at.
     void look(const ParticleStore& grains, std::vector<std::uint32_t> identities);
     /// Whether it counts on this rank.
@@ -250,8 +252,10 @@ private:
     ExactSum byMigration, byDrying;     // J, since takeEnergy()
     std::vector<QuantisedRules> rules;  // of each bucket
     bool anyWetWall = false;
-    std::vector<double> walls;          // m^3
-    std::vector<std::uint32_t> looked;  // identities of grains to be looked at in the next step
+    std::vector<double> walls;                // m^3, by number
+    double givenByRemoved = 0;                // m^3, of these, by walls that were removed
+    std::optional<std::size_t> removedWalls;  // so many, when that was summed
+    std::vector<std::uint32_t> looked;        // identities of grains to be looked at in the next step
     bool anyAtFilms = false;
     std::vector<FilmContact> filmContacts;  // of this step
     std::vector<std::uint32_t> places, ruptured, formed;

@@ -136,13 +136,12 @@ void ContactList::addPair(Groups& all, const Grains& grains, std::uint32_t i, st
 }
 
 void ContactList::findWallContacts(const Grains& grains, const RememberedContacts& old) {
-    for (std::size_t w = 0; w < walls.getSize(); ++w)
-        if (!walls.isRemoved(w))
-            listInParts(grains.ownSize(), [&](Groups& own, std::size_t begin, std::size_t end) {
-                std::vector<std::uint32_t> parts;
-                for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
-                    findWallContacts(grains, old, w, i, own, parts);
-            });
+    for (const PresentWall& wall : walls.present())
+        listInParts(grains.ownSize(), [&](Groups& own, std::size_t begin, std::size_t end) {
+            std::vector<std::uint32_t> parts;
+            for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
+                findWallContacts(grains, old, wall.number, i, own, parts);
+        });
 }
 
 void ContactList::findWallContacts(const Grains& grains, const RememberedContacts& old, std::size_t w,

@@ -349,14 +349,12 @@ double ContactSystem::gapAround(const Grains& grains, std::size_t number) const 
     for (std::size_t k = 0; k < late.size(); ++k)
         if (k != number) look(lateSpheres[k].position, lateSpheres[k].radius);
     std::vector<std::uint32_t> parts;
-    for (std::size_t w = 0; w < walls->getSize(); ++w) {
-        if (walls->isRemoved(w)) continue;
-        const Wall& wall = walls->getObject(w);
+    for (const PresentWall& wall : walls->present()) {
         parts.clear();
-        wall.listParts(centre, radius + smallest, parts);
+        wall.object->listParts(centre, radius + smallest, parts);
         std::vector<WallPoint> points(parts.size());
         if (parts.empty()) continue;
-        wall.findPoints(centre, radius + smallest, parts, points);
+        wall.object->findPoints(centre, radius + smallest, parts, points);
         for (const WallPoint& point : points) smallest = std::min(smallest, point.distance - radius);
     }
     return std::max(smallest, 0.0);
@@ -487,9 +485,8 @@ void ContactSystem::chooseQuantum(const Grains& grains) {
         sizes.radius1 = std::min(sizes.radius1, grains.translation[k].radius);
         sizes.radius2 = std::max(sizes.radius2, grains.translation[k].radius);
     }
-    for (std::size_t w = 0; w < walls->getSize(); ++w)
-        if (!walls->isRemoved(w))
-            ofWalls[static_cast<std::size_t>(walls->getObject(w).getSpeciesIndex())] = true;
+    for (const PresentWall& wall : walls->present())
+        ofWalls[static_cast<std::size_t>(wall.object->getSpeciesIndex())] = true;
     for (std::size_t a = 0; a < ofGrains.size(); ++a) ofGrains[a] = allRanks.any(ofGrains[a]);
     sizes = {-allRanks.largest(-sizes.radius1), allRanks.largest(sizes.radius2)};
     if (sizes.radius2 == 0) return;  // no grains yet
@@ -732,15 +729,14 @@ std::vector<std::uint32_t> ContactSystem::contactsAtWalls(const Grains& grains) 
 }
 
 void ContactSystem::sumWallForces(const Grains& grains) {
-    for (std::size_t w = 0; w < walls->getSize(); ++w)
-        if (walls->getObject(w).keepsForces()) sumForcesOn(grains, w);
+    for (const auto& [number, wall] : walls->present())
+        if (wall->keepsForces()) sumForcesOn(grains, number);
 }
 
 void ContactSystem::sumLostForces(const Grains& grains) {
     const auto areOld = [](const auto* moved) { return moved != nullptr && moved->forcesAreOld; };
-    for (std::size_t w = 0; w < walls->getSize(); ++w)
-        if (const Wall& wall = walls->getObject(w); areOld(wall.drive()) || areOld(wall.body()))
-            sumForcesOn(grains, w);
+    for (const auto& [number, wall] : walls->present())
+        if (areOld(wall->drive()) || areOld(wall->body())) sumForcesOn(grains, number);
 }
 
 /// m, from the wall's point below a grain's centre to where a grain that is no sphere touches.

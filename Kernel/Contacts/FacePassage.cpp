@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Particles/GrainName.h"
@@ -79,15 +80,17 @@ std::vector<FacePassage::Seen> FacePassage::allSeenAt(const Grains& grains, std:
 void FacePassage::arrive(const Grains& grains, double reach, double time) {
     for (Passing& passing : grainsThatPass) {
         const bool isHeld = grains.translation[passing.place].inverseMass == 0;
-        for (std::uint32_t wall = 0; wall < walls.getSize(); ++wall)
+        for (const PresentWall& present : walls.present()) {
+            const auto wall = static_cast<std::uint32_t>(present.number);
             if (isHeld && !listsOfHeld.atWall(wall)) continue;
-            else if (walls.getObject(wall).isRepeated()) goOnAtImages(grains, passing, wall);
+            if (present.object->isRepeated()) goOnAtImages(grains, passing, wall);
             else if (isFollowed[wall] && !findPartners(grains, passing, wall, reach))
                 throw RunError(fmt::format(
                     "At time {:.6g} s {} goes through a face of the periodic scene where wall {} is "
                     "not the same on both sides: only meshes are repeated, so let this one go on through the "
                     "faces, or keep grains away from where it does not.",
                     time, nameOfGrain(grains, grains.identity[passing.place]), wall));
+        }
     }
 }
 
@@ -154,7 +157,7 @@ std::vector<std::uint32_t> FacePassage::arriveChanged(const Grains& grains, doub
         places.push_back(passing.place);
         const TranslationRecord& grain = grains.translation[passing.place];
         const Vector<double> way = grain.position - passing.position;
-        std::vector<std::vector<Seen>> now(walls.getSize());
+        std::map<std::uint32_t, std::vector<Seen>> now;  // by wall
         for (Seen before : passing.before) {
             if (!store.acts(before.contact)) continue;
             std::uint32_t& part =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -17,14 +18,10 @@ enum class HeldContacts {
 /// Of them, those that are listed.
 struct ListedOfHeld {
     bool pairs = false;
-    std::vector<bool> walls;  // by their numbers
+    std::vector<std::size_t> walls;  // their numbers, in order
 
-    [[nodiscard]] bool atWall(std::size_t wall) const { return wall < walls.size() && walls[wall]; }
-    [[nodiscard]] bool any() const {
-        for (const bool wall : walls)
-            if (wall) return true;
-        return pairs;
-    }
+    [[nodiscard]] bool atWall(std::size_t wall) const { return std::ranges::binary_search(walls, wall); }
+    [[nodiscard]] bool any() const { return pairs || !walls.empty(); }
     friend bool operator==(const ListedOfHeld&, const ListedOfHeld&) = default;
 };
 

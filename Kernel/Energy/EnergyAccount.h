@@ -77,8 +77,7 @@ public:
     /// Lets what the walls have taken note of in finish() count, at the end (s) of a step that has not
     /// failed.
     static void finishWear(const WallHandler& walls, double time) {
-        for (WornWall* const worn : wornWalls(walls))
-            if (worn) worn->finishStep(time);
+        for (const NumberedWornWall& worn : wornWalls(walls)) worn.wall->finishStep(time);
     }
 
     /// Called when the grains have moved.
@@ -275,31 +274,28 @@ private:
 
     static double energyOfPistons(const WallHandler& walls) {
         double sum = 0;  // J
-        for (std::size_t w = 0; w < walls.getSize(); ++w) {
-            const Wall& wall = walls.getObject(w);
-            if (const PlaneDrive* const drive = wall.drive()) sum += drive->kineticEnergy();
-            if (const WallBody* const body = wall.body()) sum += body->kineticEnergy();
+        for (const PresentWall& wall : walls.present()) {
+            if (const PlaneDrive* const drive = wall.object->drive()) sum += drive->kineticEnergy();
+            if (const WallBody* const body = wall.object->body()) sum += body->kineticEnergy();
         }
         return sum;
     }
     static double energyOfMembranes(const WallHandler& walls) {
         double sum = 0;  // J
-        for (std::size_t w = 0; w < walls.getSize(); ++w)
-            if (const Membrane* const membrane = std::as_const(walls.getObject(w)).membrane())
-                sum += membrane->getKineticEnergy();
+        for (const PresentWall& wall : walls.present())
+            if (const Membrane* const membrane = wall.object->membrane()) sum += membrane->getKineticEnergy();
         return sum;
     }
     static double elasticEnergyOfMembranes(const WallHandler& walls) {
         double sum = 0;  // J
-        for (std::size_t w = 0; w < walls.getSize(); ++w)
-            if (const Membrane* const membrane = std::as_const(walls.getObject(w)).membrane())
-                sum += membrane->getElasticEnergy();
+        for (const PresentWall& wall : walls.present())
+            if (const Membrane* const membrane = wall.object->membrane()) sum += membrane->getElasticEnergy();
         return sum;
     }
     static void takeInMembranes(const WallHandler& walls, double step, EnergyLedger& ledger) {
         ledger.membraneElastic = elasticEnergyOfMembranes(walls);
-        for (std::size_t w = 0; w < walls.getSize(); ++w) {
-            const Membrane* const membrane = std::as_const(walls.getObject(w)).membrane();
+        for (const PresentWall& wall : walls.present()) {
+            const Membrane* const membrane = wall.object->membrane();
             if (!membrane || step == 0) continue;
             const MembraneWork& work = membrane->work;
             ledger.pressures += work.byLoads;
@@ -324,8 +320,8 @@ private:
                                           : RigidVelocity{};
     }
     static void takeInBodies(const WallHandler& walls, double step, EnergyLedger& ledger) {
-        for (std::size_t w = 0; w < walls.getSize(); ++w) {
-            const WallBody* const body = std::as_const(walls.getObject(w)).body();
+        for (const PresentWall& wall : walls.present()) {
+            const WallBody* const body = wall.object->body();
             if (!body || step == 0) continue;
             ledger.loads += body->work.byLoads;
             ledger.bearings += body->work.inFriction;
@@ -336,8 +332,8 @@ private:
     /// of a step.
     static void takeInPistons(const WallHandler& walls, const Vector<double>& gravity, double step,
                               const Integrator& scheme, EnergyLedger& ledger) {
-        for (std::size_t w = 0; w < walls.getSize(); ++w) {
-            const Wall& wall = walls.getObject(w);
+        for (const PresentWall& present : walls.present()) {
+            const Wall& wall = *present.object;
             const PlaneDrive* const drive = wall.drive();
             if (!drive || !drive->isPiston() || step == 0) continue;
             const double mass = drive->asked.mass;

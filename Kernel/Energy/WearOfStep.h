@@ -36,15 +36,10 @@ struct WearOfContact {
 class WearOfStep {
 public:
     explicit WearOfStep(const WallHandler& ofScene) : walls(wornWalls(ofScene)) {
-        for (WornWall* const worn : walls)
-            if (worn) worn->forgetStep();
+        for (const NumberedWornWall& worn : walls) worn.wall->forgetStep();
     }
-    [[nodiscard]] bool any() const {
-        return std::ranges::any_of(walls, [](const WornWall* wall) { return wall != nullptr; });
-    }
-    [[nodiscard]] bool wears(int wall) const {
-        return wall >= 0 && walls[static_cast<std::size_t>(wall)] != nullptr;
-    }
+    [[nodiscard]] bool any() const { return !walls.empty(); }
+    [[nodiscard]] bool wears(int wall) const { return wall >= 0 && find(wall) != walls.end(); }
 
     /// Whether a contact with a wall slides or begins in the step.
     static bool isWorn(const EnergyRecord& record, double slidingWork) {
@@ -65,7 +60,7 @@ public:
     }
 
     void give(const WearOfContact& one) const {
-        walls[static_cast<std::size_t>(one.wall)]->takeWear(one.part, one.point, one.done);
+        find(one.wall)->wall->takeWear(one.part, one.point, one.done);
     }
     /// The wear of all ranks, added up in the order of identities. @param own may be in any order
     void give(const std::vector<WearOfContact>& own, const AllRanks& ranks) const {
@@ -77,6 +72,9 @@ public:
     }
 
 private:
+    [[nodiscard]] std::vector<NumberedWornWall>::const_iterator find(int wall) const {
+        return std::ranges::find(walls, static_cast<std::size_t>(wall), &NumberedWornWall::number);
+    }
     /// The vector (m) from the centre of a grain to the surface of the wall that it touches, or has just
     /// left.
     static Vector<double> depthOf(const EnergyRecord& record, double radius) {
@@ -98,7 +96,7 @@ private:
         return 1 / std::max(mobility, 1e-9 / body.mass);
     }
 
-    std::vector<WornWall*> walls;  // by their numbers; null for those that do not wear
+    std::vector<NumberedWornWall> walls;
 };
 
 }  // namespace pendular

@@ -118,8 +118,8 @@ void refuseWithoutRoom(std::string_view who, const Region& region, const WallHan
         forEachWallNear(walls, periodic, point + way, smallest,
                         [&](const WallPoint&, std::size_t wall) { meet(wall); });
         if (way != Vector<double>{0, 0, 0})
-            for (std::size_t w = 0; w < walls.getSize(); ++w)
-                if (walls.getObject(w).isCrossed(point, point + way)) meet(w);
+            for (const PresentWall& wall : walls.present())
+                if (wall.object->isCrossed(point, point + way)) meet(wall.number);
         if (isFree) return;
     }
     if (inRegion == 0) return;  // a thin mesh: insertion itself will tell

@@ -18,15 +18,14 @@ void forEachWallNear(const WallHandler& walls, const Vector<double>& centre, dou
                      Function&& function) {
     thread_local std::vector<std::uint32_t> parts;
     thread_local std::vector<WallPoint> points;
-    for (std::size_t w = 0; w < walls.getSize(); ++w) {
-        const Wall& wall = walls.getObject(w);
+    for (const auto& [number, wall] : walls.present()) {
         parts.clear();
-        wall.listParts(centre, radius, parts);
+        wall->listParts(centre, radius, parts);
         if (parts.empty()) continue;
         points.assign(parts.size(), {});
-        wall.findPoints(centre, radius, parts, points);
+        wall->findPoints(centre, radius, parts, points);
         for (const WallPoint& point : points)
-            if (point.distance < radius) function(point, w);
+            if (point.distance < radius) function(point, number);
     }
 }
 
@@ -57,7 +56,7 @@ template <class Function>
 void forEachWallNear(const WallHandler& walls, const PeriodicBox& periodic, const Vector<double>& centre,
                      double radius, Function&& function) {
     if (!periodic.any()) return forEachWallNear(walls, centre, radius, function);
-    if (walls.getSize() == 0) return;
+    if (walls.present().empty()) return;
     struct Met {
         WallPoint point;
         std::size_t wall;

@@ -106,17 +106,18 @@ GrainSource* MercuryInsertions::add(GrainSource source) {
             "in a "
             "hook.");
     source.random = UniformRandom(1 + sources.size());
-    return &sources.emplace_back(Kept{std::move(source)}).source;
+    return running.emplace_back(&sources.emplace_back(Kept{std::move(source)}).source);
 }
 
 void MercuryInsertions::stop(const GrainSource* source) {
     for (Kept& kept : sources)
         if (&kept.source == source) kept.isStopped = true;
+    std::erase(running, source);
 }
 
 void MercuryInsertions::atEnd(StepContext& step) {
-    for (Kept& kept : sources)
-        if (!kept.isStopped) kept.source.letIn(step.particles, step.walls, step.box, step.timeAfter);
+    for (GrainSource* const source : running)
+        source->letIn(step.particles, step.walls, step.box, step.timeAfter);
 }
 
 void GrainSource::compareSetUp(StateArchive& archive) const {
@@ -151,6 +152,9 @@ void MercuryInsertions::visitState(StateArchive& archive, StepContext& /*scene*/
             kept.source.visitState(archive);
             archive.value("isStopped", kept.isStopped);
         });
+    running.clear();
+    for (Kept& kept : sources)
+        if (!kept.isStopped) running.push_back(&kept.source);
 }
 
 }  // namespace pendular

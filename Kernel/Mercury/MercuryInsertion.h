@@ -83,7 +83,8 @@ private:
         GrainSource source;
         bool isStopped = false;
     };
-    std::deque<Kept> sources;
+    std::deque<Kept> sources;           // also stopped ones, which a restart file has, too
+    std::vector<GrainSource*> running;  // those that a step goes through
     bool hasBegun = false;
 };
 

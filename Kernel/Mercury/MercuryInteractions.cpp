@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Contacts/ContactSystem.h"
 
@@ -29,6 +31,15 @@ static std::vector<ObservedContact> contactsOf(const Scene& scene, const GrainRe
                                                : std::vector<ObservedContact>{};
 }
 
+/// A driver may keep the pointer to a wall that was removed.
+static int numberOf(const WallHandler& walls, const Wall* wall) {
+    const auto found = std::ranges::find_if(
+        walls.present(), [wall](const PresentWall& present) { return present.object.get() == wall; });
+    if (found == walls.present().end())
+        throw InputError("InteractionHandler: getInteraction() needs a wall of this scene.");
+    return static_cast<int>(found->number);
+}
+
 MercuryInteraction MercuryInteractionHandler::getInteraction(const GrainReference& one,
                                                              const GrainReference& other,
                                                              double /*time*/) const {
@@ -42,8 +53,7 @@ MercuryInteraction MercuryInteractionHandler::getInteraction(const GrainReferenc
 
 MercuryInteraction MercuryInteractionHandler::getInteraction(const GrainReference& grain, const Wall* wall,
                                                              double /*time*/) const {
-    int number = 0;
-    while (&scene->wallHandler.getObject(static_cast<std::size_t>(number)) != wall) ++number;
+    const int number = numberOf(scene->wallHandler, wall);
     MercuryInteraction found(MercuryBonds::Pair{grain.getId(), ObservedContact::none, number}, *bonds);
     for (const ObservedContact& contact : contactsOf(*scene, grain))
         if (contact.wall == number && (!found || contact.overlap() > found.getOverlap()))

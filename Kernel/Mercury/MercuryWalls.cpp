@@ -114,15 +114,10 @@ RigidWall* MercuryWallHandler::getObject(std::size_t number) const {
 }
 
 RigidWall* MercuryWallHandler::getLastObject() const {
-    for (std::size_t wall = walls->getSize(); wall-- > 0;)
-        if (!walls->isRemoved(wall)) return getObject(wall);
-    throw InputError("WallHandler: there is no wall.");
+    if (walls->present().empty()) throw InputError("WallHandler: there is no wall.");
+    return getObject(walls->present().back().number);
 }
 
-std::size_t MercuryWallHandler::getNumberOfObjects() const {
-    std::size_t count = 0;
-    for (std::size_t wall = 0; wall < walls->getSize(); ++wall) count += walls->isRemoved(wall) ? 0 : 1;
-    return count;
-}
+std::size_t MercuryWallHandler::getNumberOfObjects() const { return walls->present().size(); }
 
 }  // namespace pendular

@@ -27,10 +27,10 @@ void addUp(ContactBounds::BodyMatrix& matrix, const AllRanks& ranks) {
 
 void ContactBounds::findMovedWalls(const WallHandler& walls) {
     movedWalls.clear();
-    for (std::size_t w = 0; w < walls.getSize(); ++w) {
-        const Wall& wall = walls.getObject(w);
-        if (walls.isRemoved(w) || !hasMass(wall)) continue;
-        MovedWall& moved = movedWalls.emplace_back(MovedWall{.number = static_cast<int>(w)});
+    for (const PresentWall& present : walls.present()) {
+        const Wall& wall = *present.object;
+        if (!hasMass(wall)) continue;
+        MovedWall& moved = movedWalls.emplace_back(MovedWall{.number = static_cast<int>(present.number)});
         if (const Membrane* const membrane = wall.membrane()) moved.vertices = PressedVertices(*membrane);
         else moved.motions = WallMotions(wall);
         moved.block.ownDashpot = 0;

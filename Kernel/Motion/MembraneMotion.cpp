@@ -18,8 +18,8 @@ using Column = MembraneState::Column;
 /// Calls function(number, membrane) for each.
 template <class Function>
 void forEachMembrane(const WallHandler& walls, Function&& function) {
-    for (std::size_t w = 0; w < walls.getSize(); ++w)
-        if (Membrane* const membrane = walls.getObject(w).membrane()) function(w, *membrane);
+    for (const auto& [number, wall] : walls.present())
+        if (Membrane* const membrane = wall->membrane()) function(number, *membrane);
 }
 
 /// The force of a contact on a triangle.

@@ -18,10 +18,10 @@ using Step = PlaneMotion::Step;
 /// Calls function(number, wall, drive) for each plane that is moved by forces.
 template <class Function>
 void forEachDriven(const WallHandler& walls, Function&& function) {
-    for (std::size_t w = 0; w < walls.getSize(); ++w) {
-        PlaneDrive* const drive = walls.getObject(w).drive();
+    for (const auto& [number, wall] : walls.present()) {
+        PlaneDrive* const drive = wall->drive();
         if (!drive) continue;
-        if (auto* const plane = dynamic_cast<InfiniteWall*>(&walls.getObject(w))) function(w, *plane, *drive);
+        if (auto* const plane = dynamic_cast<InfiniteWall*>(wall.get())) function(number, *plane, *drive);
     }
 }
 

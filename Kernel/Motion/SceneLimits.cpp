@@ -19,14 +19,8 @@
 
 namespace pendular {
 
-std::size_t numberOfWalls(const WallHandler& walls) {
-    std::size_t count = 0;
-    for (std::size_t w = 0; w < walls.getSize(); ++w) count += walls.isRemoved(w) ? 0 : 1;
-    return count;
-}
-
 std::size_t mostContacts(std::size_t grains, const WallHandler& walls) {
-    return std::clamp<std::size_t>(grains + 3 * numberOfWalls(walls), 2, contactsInDensestBed + 1) - 1;
+    return std::clamp<std::size_t>(grains + 3 * walls.present().size(), 2, contactsInDensestBed + 1) - 1;
 }
 
 /// The contacts for which the mass of a piston is checked: before its first step a guess, a full layer; then
@@ -154,16 +148,15 @@ static double membraneLimit(const ContactLaws& species, const GrainSizes& grains
 /// Throws InputError if the time step (s) is above this limit of a membrane.
 static void checkMembranes(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                            double timeStep, const Integrator& integrator) {
-    for (std::size_t w = 0; w < walls.getSize(); ++w)
-        if (const double limit = membraneLimit(species, grains, walls.getObject(w), integrator);
-            timeStep > limit)
+    for (const auto& [number, wall] : walls.present())
+        if (const double limit = membraneLimit(species, grains, *wall, integrator); timeStep > limit)
             throw InputError(fmt::format(
                 "wall {}, a membrane: its springs and hinges (squared frequency up to {:.4g} 1/s^2) and the "
                 "grains that touch its lightest vertex ({:.4g} kg) do not bear a time step of {:.6g} s; it "
                 "must be at most {:.6g} s, or the net coarser, heavier or softer, unless "
                 "acceptUnstableTimeStep() is called.",
-                w, walls.getObject(w).membrane()->squaredFrequency(),
-                walls.getObject(w).membrane()->lightestVertex(), timeStep, limit));
+                number, wall->membrane()->squaredFrequency(), wall->membrane()->lightestVertex(), timeStep,
+                limit));
 }
 
 Integrator schemeOfScene(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
@@ -178,7 +171,8 @@ Integrator schemeOfScene(const ContactLaws& species, const GrainSizes& grains, c
     return lacks ? integrators::springsInStep : integrator;
 }
 
-/// The stability limit (s) with these shares of the springs and dashpots of walls that forces move. Their
+/// The stability limit (s) with these shares, of each present wall, of the springs and dashpots of walls that
+/// forces move. Their
 /// rows add up, as a grain may touch several.
 static double limitWithShares(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                               const Integrator& asked, const std::vector<double>& shares) {
@@ -186,14 +180,15 @@ static double limitWithShares(const ContactLaws& species, const GrainSizes& grai
     const std::size_t contacts = mostContacts(grains.count, walls);
     double limit = infinity;
     WallResponse response;
-    for (std::size_t w = 0; w < walls.getSize(); ++w) {
-        if (!(shares[w] > 0)) continue;
-        response = response + shares[w] * pistonRow(species, grains, walls.getObject(w));
-        limit = std::min(limit, limitOnHeld(species, grains, walls.getObject(w), integrator, shares[w]));
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+        if (!(shares[k] > 0)) continue;
+        const Wall& wall = *walls.present()[k].object;
+        response = response + shares[k] * pistonRow(species, grains, wall);
+        limit = std::min(limit, limitOnHeld(species, grains, wall, integrator, shares[k]));
     }
-    for (std::size_t w = 0; w < walls.getSize(); ++w) {
-        limit = std::min(limit, membraneLimit(species, grains, walls.getObject(w), integrator));
-        response.shift = response.shift + membraneRow(species, grains, walls.getObject(w));
+    for (const PresentWall& wall : walls.present()) {
+        limit = std::min(limit, membraneLimit(species, grains, *wall.object, integrator));
+        response.shift = response.shift + membraneRow(species, grains, *wall.object);
     }
     forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
         limit = std::min(limit,
@@ -204,7 +199,8 @@ static double limitWithShares(const ContactLaws& species, const GrainSizes& grai
 
 double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                            const Integrator& integrator) {
-    return limitWithShares(species, grains, walls, integrator, std::vector<double>(walls.getSize(), 1));
+    return limitWithShares(species, grains, walls, integrator,
+                           std::vector<double>(walls.present().size(), 1));
 }
 
 /// The largest share, up to 1, of what a time step (s) does not bear as a whole.
@@ -243,30 +239,32 @@ void checkPistons(const ContactLaws& species, const GrainSizes& grains, const Wa
     const auto limitOf = [&](const std::vector<double>& shares) {
         return limitWithShares(species, grains, walls, integrator, shares);
     };
-    const std::vector<double> all(walls.getSize(), 1), none(walls.getSize(), 0);
+    const std::vector<double> all(walls.present().size(), 1), none(all.size(), 0);
     if (timeStep <= limitOf(all) || timeStep > limitOf(none)) return;
-    std::vector<std::size_t> pistons;
-    for (std::size_t w = 0; w < walls.getSize(); ++w)
-        if (const Wall& wall = walls.getObject(w); wall.body() || (wall.drive() && wall.drive()->isPiston()))
-            pistons.push_back(w);
-    const auto with = [](std::vector<double> shares, std::size_t w, double share) {
-        shares[w] = share;
+    std::vector<std::size_t> pistons;  // among the present walls
+    for (std::size_t k = 0; k < all.size(); ++k)
+        if (const Wall& wall = *walls.present()[k].object;
+            wall.body() || (wall.drive() && wall.drive()->isPiston()))
+            pistons.push_back(k);
+    const auto with = [](std::vector<double> shares, std::size_t k, double share) {
+        shares[k] = share;
         return shares;
     };
     const std::size_t lightest =
-        *std::ranges::min_element(pistons, {}, [&](std::size_t w) { return limitOf(with(none, w, 1)); });
+        *std::ranges::min_element(pistons, {}, [&](std::size_t k) { return limitOf(with(none, k, 1)); });
     const bool isOne = timeStep <= limitOf(with(all, lightest, 0));
     const double share = shareThatIsBorne(timeStep, [&](double part) {
-        return limitOf(isOne ? with(all, lightest, part) : std::vector<double>(walls.getSize(), part));
+        return limitOf(isOne ? with(all, lightest, part) : std::vector<double>(all.size(), part));
     });
     if (isOne) pistons = {lightest};
     std::vector<std::string> masses, least;
     double touches = 0;
-    for (const std::size_t w : pistons) {
-        const InertiaOfWall own = inertiaOf(walls.getObject(w));
-        masses.push_back(fmt::format("wall {}: {} = {:.6g} {}", w, own.name, own.value, own.unit));
+    for (const std::size_t k : pistons) {
+        const auto& [number, wall] = walls.present()[k];
+        const InertiaOfWall own = inertiaOf(*wall);
+        masses.push_back(fmt::format("wall {}: {} = {:.6g} {}", number, own.name, own.value, own.unit));
         least.push_back(fmt::format("{:.6g} {}", 1.001 * own.value / share, own.unit));
-        touches = std::max(touches, touchesOf(grains, walls.getObject(w)));
+        touches = std::max(touches, touchesOf(grains, *wall));
     }
     throw InputError(fmt::format(
         "{} {} too light for a time step of {:.6g} s with up to {:.0f} contacts; it must be at least {}, or "
@@ -280,10 +278,10 @@ double shortestHalfPeriod(const ContactLaws& species, const GrainSizes& grains, 
     forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
         shortest = std::min(shortest, halfPeriod(laws, bodies, mass));
     });
-    for (std::size_t w = 0; w < walls.getSize(); ++w) {
-        const double mobility = walls.isRemoved(w) ? 0 : mobilityOfWall(walls.getObject(w));
+    for (const PresentWall& present : walls.present()) {
+        const double mobility = mobilityOfWall(*present.object);
         if (!(mobility > 0)) continue;
-        const Wall& wall = walls.getObject(w);
+        const Wall& wall = *present.object;
         forEachAtWall(
             species, grains.free, wall, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
                 shortest =
@@ -313,9 +311,8 @@ double mobilityOfWall(const Wall& wall) {
 double limitOfMovedWalls(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                          const Integrator& integrator) {
     double limit = infinity;
-    for (std::size_t w = 0; w < walls.getSize(); ++w) {
-        const Wall& wall = walls.getObject(w);
-        if (walls.isRemoved(w)) continue;
+    for (const PresentWall& present : walls.present()) {
+        const Wall& wall = *present.object;
         limit = std::min(limit, membraneLimit(species, grains, wall, integrator));
         if (!(mobilityOfWall(wall) > 0)) continue;
         const SpringAndDashpot onHeld = rowAmong(species, grains, grains.carriers(), wall).shift;
@@ -344,10 +341,9 @@ double stepOfFastestPair(const ContactLaws& species, const GrainSizes& grains, c
 
 void checkScene(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                 double timeStep, const Integrator& integrator) {
-    for (std::size_t w = 0; w < walls.getSize(); ++w)
-        if (!walls.isRemoved(w))
-            requireOwnSpecies(species, fmt::format("wall {}", w), walls.getObject(w).getSpeciesIndex(),
-                              walls.getObject(w).getSpeciesOwner());
+    for (const auto& [number, wall] : walls.present())
+        requireOwnSpecies(species, fmt::format("wall {}", number), wall->getSpeciesIndex(),
+                          wall->getSpeciesOwner());
     forEachExtremePair(
         species, grains, walls,
         [](const PairLaws& laws, const Bodies& bodies, double) {

@@ -41,10 +41,8 @@ void forEachExtremePair(const ContactLaws& species, const GrainSizes& grains, co
                                           : std::array<double, 2>{sizes[b].smallest, sizes[b].largest};
                 for (const double r2 : partners) forBodies(a, b, r1, r2);
             }
-            for (std::size_t w = 0; w < walls.getSize(); ++w)
-                if (!walls.isRemoved(w))
-                    forBodies(a, static_cast<std::size_t>(walls.getObject(w).getSpeciesIndex()), r1,
-                              infinity);
+            for (const PresentWall& wall : walls.present())
+                forBodies(a, static_cast<std::size_t>(wall.object->getSpeciesIndex()), r1, infinity);
         }
     }
 }
@@ -82,9 +80,6 @@ double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains,
 /// does not bear the others either.
 void checkPistons(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                   double timeStep, const Integrator& integrator);
-
-/// How many walls there are, without those that were removed.
-[[nodiscard]] std::size_t numberOfWalls(const WallHandler& walls);
 
 /// 1/kg, the most by which a contact moves a wall that forces move (a piston, a slider, a rotor, a free body)
 /// where it is touched; 0 of others. A membrane has limits of its own.

@@ -16,9 +16,9 @@ using Step = WallBodyMotion::Step;
 /// Calls function(number, wall, body) for each wall that is a body.
 template <class Function>
 void forEachBody(const WallHandler& walls, Function&& function) {
-    for (std::size_t w = 0; w < walls.getSize(); ++w)
-        if (WallBody* const body = walls.getObject(w).body())
-            if (auto* const wall = dynamic_cast<RigidWall*>(&walls.getObject(w))) function(w, *wall, *body);
+    for (const auto& [number, wall] : walls.present())
+        if (WallBody* const body = wall->body())
+            if (auto* const rigid = dynamic_cast<RigidWall*>(wall.get())) function(number, *rigid, *body);
 }
 
 /// N m, of the grains on a wall, about its centre.

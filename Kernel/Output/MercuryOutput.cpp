@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -29,14 +30,16 @@ std::string words(const Vector<double>& v) { return fmt::format("{} {} {}", v.x,
 /// wall its place among those that there are. Neither has gaps after a removal, as identities have.
 struct Indices {
     std::vector<std::uint32_t> ofGrain;  // by place
-    std::vector<std::int64_t> ofWall;    // by number
+    std::span<const PresentWall> walls;
 
-    Indices(const ParticleStore& grains, const WallHandler& walls) : ofGrain(grains.size()) {
+    Indices(const ParticleStore& grains, const WallHandler& wallHandler)
+        : ofGrain(grains.size()), walls(wallHandler.present()) {
         std::uint32_t row = 0;
         for (const std::uint32_t place : grains.place) ofGrain[place] = row++;
-        std::int64_t wall = 0;
-        for (std::size_t w = 0; w < walls.getSize(); ++w)
-            ofWall.push_back(walls.isRemoved(w) ? wall : wall++);
+    }
+    [[nodiscard]] std::int64_t ofWall(int number) const {
+        return std::ranges::lower_bound(walls, static_cast<std::size_t>(number), {}, &PresentWall::number) -
+               walls.begin();
     }
 };
 
@@ -169,7 +172,7 @@ void MercuryOutput::writeContacts(const ContactSystem& system, const ParticleSto
         };
         const bool moves = first.inverseMass > 0;
         if (bucket.wall >= 0) {
-            if (moves) line(index.ofGrain[place], -index.ofWall[static_cast<std::size_t>(seen.wall)] - 1, -1);
+            if (moves) line(index.ofGrain[place], -index.ofWall(seen.wall) - 1, -1);
             return;
         }
         const std::uint32_t place2 = grains.place[seen.particle2];

@@ -29,13 +29,15 @@ namespace {
 
 /// Adds the wear of each polygon, where a wall keeps it; zeros for walls that do not.
 void addWear(PolyData& data, const WallHandler& walls, const std::vector<WallSurface>& surfaces) {
-    const std::vector<WornWall*> worn = wornWalls(walls);
-    if (std::ranges::count(worn, nullptr) == std::ssize(worn)) return;
+    if (wornWalls(walls).empty()) return;
     const auto add = [&](std::string name, auto&& numberOf) {
         std::vector<double> numbers;
-        for (std::size_t w = 0; w < worn.size(); ++w)
+        for (std::size_t w = 0; w < surfaces.size(); ++w) {
+            const auto* const wall = dynamic_cast<const WornWall*>(walls.present()[w].object.get());
+            const bool wears = wall && wall->keepsWear();
             for (std::size_t k = 0; k < surfaces[w].polygons.size(); ++k)
-                numbers.push_back(worn[w] ? numberOf(worn[w]->wearOf(k)) : 0);
+                numbers.push_back(wears ? numberOf(wall->wearOf(k)) : 0);
+        }
         data.cellFields.push_back({std::move(name), 1, std::move(numbers)});
     };
     add("sliding_work_J", [](const SurfaceWear& wear) { return wear.slidingWork; });
@@ -155,7 +157,7 @@ SceneFrame frameOf(const FrameContent& content, const AddedFields& added, const 
     frame.grains.wholeFields = boxFields(boxOfContacts(scene));
     requireDistinctNames(frame.grains.pointFields, "grains");
     if (frame.contacts) requireDistinctNames(frame.contacts->cellFields, "contacts");
-    if (scene.wallHandler.getSize() > 0) {
+    if (scene.wallHandler.getSize() > 0) {  // also where all were removed: each frame has the same files
         const auto [lowest, highest] = boxAround(store, boxOfContacts(scene), ranks);
         frame.walls = wallPolygons(scene.wallHandler, lowest, highest);
     }
@@ -177,8 +179,8 @@ PolyData wallPolygons(const WallHandler& walls, const Vector<double>& lowest, co
                 data.points.push_back(corner);
             }
             data.ends.push_back(static_cast<std::int32_t>(data.corners.size()));
-            numbers.push_back(static_cast<std::int32_t>(w));
-            species.push_back(walls.getObject(w).getSpeciesIndex());
+            numbers.push_back(static_cast<std::int32_t>(walls.present()[w].number));
+            species.push_back(walls.present()[w].object->getSpeciesIndex());
         }
     data.cellFields = {{"wall", 1, std::move(numbers)}, {"species", 1, std::move(species)}};
     addWear(data, walls, surfaces);

@@ -19,12 +19,10 @@ void WallForceFile::prepare(Scene& scene) const { scene.wallHandler.keepForces()
 void WallForceFile::write(Scene& scene) {
     const double time = scene.getTime();
     if (table.has(time)) return;
-    for (std::size_t w = 0; w < scene.wallHandler.getSize(); ++w) {
-        const Wall& wall = scene.wallHandler.getObject(w);
-        if (wall.isRemoved()) continue;
-        const Vec3D force = wall.getForce(), torque = wall.getTorque();
+    for (const auto& [number, wall] : scene.wallHandler.present()) {
+        const Vec3D force = wall->getForce(), torque = wall->getTorque();
         table.of(scene, header)
-            .row(time, w, force.x(), force.y(), force.z(), torque.x(), torque.y(), torque.z());
+            .row(time, number, force.x(), force.y(), force.z(), torque.x(), torque.y(), torque.z());
     }
     table.wroteAt(time);
 }

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <concepts>
 #include <numbers>
 
+#include "Kernel/Base/InputError.h"
 #include "Kernel/PartialSlip/PartialSlipContact.h"
 
 namespace pendular {
@@ -22,6 +25,7 @@ struct ElasticImpact {
     double mass = 1;         // m*, kg
     double approach = 1;     // m/s, speed along the normal
     double restitution = 1;  // of the normal speed
+    static constexpr int mostContactTimes = 100;
 
     struct Motion {
         Vector<double> velocity;  // m/s, of the centre, tangential
@@ -41,13 +45,16 @@ struct ElasticImpact {
 
     /// Solves the impact by the leapfrog, with `steps` for the time of an elastic contact: second order.
     /// @param before tangential motion; its normal speed is that of the approach
+    /// Throws InputError where the bodies do not part.
     /// @param each called after each move with the overlap (m), the slip (m) of the move and the force (N)
     template <TangentialContact Contact, class Watch>
     Motion solve(Motion before, Contact& contact, int steps, Watch each) const {
         const double h = contactTime() / steps, inverseMass = 1 / mass;
         // Tsuji, Tanaka and Ishida (1992): the dashpot beta sqrt(m* k) with k = 4/3 E* a.
         const double logarithm = std::log(restitution);
-        const double beta = -std::sqrt(5.0) * logarithm / std::hypot(logarithm, std::numbers::pi);
+        const double beta = restitution == 0
+                                ? std::sqrt(5.0)
+                                : -std::sqrt(5.0) * logarithm / std::hypot(logarithm, std::numbers::pi);
         double overlap = 0, speed = approach, normalForce = 0;
         Motion motion = before;
         Vector<double> force{0, 0, 0};
@@ -56,7 +63,13 @@ struct ElasticImpact {
             motion.velocity += (0.5 * h * inverseMass) * force;
             motion.rim += (0.5 * h * 2.5 * inverseMass) * force;
         };
-        while (true) {
+        // A restitution of 0 or nearly 0 has no end: the body creeps out ever more slowly.
+        for (int step = 0;; ++step) {
+            if (step >= mostContactTimes * steps)
+                throw InputError(fmt::format(
+                    "ElasticImpact: restitution = {:.6g}: the bodies have not parted after {} contact times; "
+                    "it must be larger, and at most 1.",
+                    restitution, mostContactTimes));
             kick();
             overlap += h * speed;
             if (overlap <= 0) break;

@@ -16,11 +16,10 @@ namespace pendular {
 
 Features DrivePart::features(const StepContext& scene) const {
     Features found;
-    for (std::size_t w = 0; w < scene.walls.getSize(); ++w) {
-        const Wall& wall = scene.walls.getObject(w);
-        if (wall.isMovedByForces()) found.add(Feature::DrivenWalls, fmt::format("wall {}", w));
-        if (const WallBody* const body = wall.body(); body && body->turns())
-            found.add(Feature::TurnedWalls, fmt::format("wall {}", w));
+    for (const auto& [number, wall] : scene.walls.present()) {
+        if (wall->isMovedByForces()) found.add(Feature::DrivenWalls, fmt::format("wall {}", number));
+        if (const WallBody* const body = wall->body(); body && body->turns())
+            found.add(Feature::TurnedWalls, fmt::format("wall {}", number));
     }
     return found;
 }
@@ -43,9 +42,8 @@ static void checkPlane(const StepContext& scene, std::size_t number, const Plane
 }
 
 void DrivePart::check(const StepContext& scene) {
-    for (std::size_t w = 0; w < scene.walls.getSize(); ++w)
-        if (const PlaneDrive* const drive = std::as_const(scene.walls.getObject(w)).drive())
-            checkPlane(scene, w, *drive);
+    for (const auto& [number, wall] : scene.walls.present())
+        if (const PlaneDrive* const drive = wall->drive()) checkPlane(scene, number, *drive);
 }
 
 void DrivePart::prepare(StepContext& step) {
@@ -55,11 +53,10 @@ void DrivePart::prepare(StepContext& step) {
         return true;
     };
     bool areMore = false;
-    for (std::size_t w = 0; w < step.walls.getSize(); ++w) {
-        Wall& wall = step.walls.getObject(w);
-        PlaneDrive* const drive = wall.drive();
+    for (const PresentWall& wall : step.walls.present()) {
+        PlaneDrive* const drive = wall.object->drive();
         areMore = takeTouches(drive && drive->isPiston() ? drive : nullptr) || areMore;
-        areMore = takeTouches(wall.body()) || areMore;
+        areMore = takeTouches(wall.object->body()) || areMore;
     }
     motion.forget();
     bodies.forget();
@@ -95,11 +92,11 @@ void DrivePart::takeBack(StepContext& step) {
 }
 
 void DrivePart::addTo(SummaryRows& rows) const {
-    for (std::size_t w = 0; w < walls.getSize(); ++w) {
-        const WallBody* const body = std::as_const(walls.getObject(w)).body();
+    for (const PresentWall& wall : walls.present()) {
+        const WallBody* const body = wall.object->body();
         if (!body) continue;
         const auto add = [&](std::string_view what, double value, std::string_view unit) {
-            rows.addNumber(fmt::format("wall {}: {}", w, what), value, unit);
+            rows.addNumber(fmt::format("wall {}: {}", wall.number, what), value, unit);
         };
         if (body->isFree()) {
             add("speed of its centre of mass", norm(body->free.velocity), "m/s");
@@ -116,9 +113,9 @@ void DrivePart::addTo(SummaryRows& rows) const {
 
 void DrivePart::sumForcesOnNewDrives(const StepContext& scene) {
     const auto isNew = [](const auto* moved) { return moved != nullptr && moved->steps == 0; };
-    for (std::size_t w = 0; w < scene.walls.getSize(); ++w)
-        if (const Wall& wall = scene.walls.getObject(w); isNew(wall.drive()) || isNew(wall.body()))
-            scene.contacts.sumForcesOn(scene.particles.store(), w);
+    for (const auto& [number, wall] : scene.walls.present())
+        if (isNew(wall->drive()) || isNew(wall->body()))
+            scene.contacts.sumForcesOn(scene.particles.store(), number);
 }
 
 }  // namespace pendular

@@ -27,13 +27,12 @@ namespace {
 /// through it.
 std::optional<std::size_t> wallInFlow(const WallHandler& walls, const PeriodicBox& box) {
     constexpr double roundOff = 1e-12;
-    for (std::size_t w = 0; w < walls.getSize(); ++w) {
-        if (walls.isRemoved(w)) continue;
-        const auto* const plane = dynamic_cast<const InfiniteWall*>(&walls.getObject(w));
-        if (!plane) return w;
+    for (const auto& [number, wall] : walls.present()) {
+        const auto* const plane = dynamic_cast<const InfiniteWall*>(wall.get());
+        if (!plane) return number;
         const Vector<double> normal = plane->drivenNormal();
         for (const auto axis : LeesEdwards::axes)
-            if (box.length.*axis > 0 && std::abs(normal.*axis) > roundOff) return w;
+            if (box.length.*axis > 0 && std::abs(normal.*axis) > roundOff) return number;
     }
     return {};
 }

@@ -193,7 +193,7 @@ void HeatPart::conductBetween(const StepContext& step, const Bucket& bucket, con
         const double power = found * (held->second.temperature - before[first]);
         flow[first] += power, conductances[first] += found;
         fromWalls.add(step.length * power);
-        byWalls[seen.wall].ofStep.add(step.length * power);
+        std::ranges::lower_bound(ofStep, seen.wall, {}, &HeatOfWall::wall)->heat.add(step.length * power);
         return;
     }
     const TranslationRecord& other = grains.translation[second];
@@ -235,14 +235,14 @@ void HeatPart::conduct(StepContext& step) {
 
 void HeatPart::addUpWalls(const StepContext& step) {
     std::vector<ExactSum*> sums{&fromWalls, &fromContacts, &toWalls};
-    for (auto& [wall, given] : byWalls) sums.push_back(&given.ofStep);
+    for (HeatOfWall& one : ofStep) sums.push_back(&one.heat);
     step.contacts.ranks().addUp(sums);
-    for (auto& [wall, given] : byWalls) given.sum += given.ofStep.value();
+    for (const HeatOfWall& one : ofStep) byWalls[one.wall] += one.heat.value();
 }
 
 double HeatPart::fromWall(int wall) const {
     const auto found = byWalls.find(wall);
-    return found == byWalls.end() ? 0 : found->second.sum;
+    return found == byWalls.end() ? 0 : found->second;
 }
 
 std::vector<int> HeatPart::wallsOfHeat() const {
@@ -310,7 +310,10 @@ void HeatPart::atEnd(StepContext& step) {
     const std::size_t size = step.grains().size();
     for (std::vector<double>* const column : {&flow, &source, &conductances}) column->assign(size, 0);
     for (ExactSum* const sum : {&fromWalls, &fromContacts, &toWalls}) *sum = {};
-    for (auto& [wall, given] : byWalls) given.ofStep = {};
+    ofStep.clear();
+    for (const PresentWall& wall : step.walls.present())
+        if (const auto number = static_cast<int>(wall.number); heldWalls.contains(number))
+            ofStep.push_back({number, {}});
     requireTemperatures(step);
     if (const auto objection = objectionToSoftening(*step.laws))
         throw RunError(fmt::format("At time {:.6g} s {}", step.time, *objection));
@@ -382,19 +385,19 @@ void HeatPart::visitState(StateArchive& archive, StepContext& /*scene*/) {
         double wall, heat;  // its number, J
     };
     std::vector<Row> ofWalls;
-    for (const auto& [wall, given] : byWalls) ofWalls.push_back({static_cast<double>(wall), given.sum});
+    for (const auto& [wall, given] : byWalls) ofWalls.push_back({static_cast<double>(wall), given});
     archive.finite("ledger", heat);
     archive.column<double>("fromEachWall", ofWalls);
     if (!archive.isReading()) return;
     archive.requireFinite("fromEachWall", ofWalls);
-    for (const Row& row : ofWalls) byWalls[static_cast<int>(row.wall)].sum = row.heat;
+    for (const Row& row : ofWalls) byWalls[static_cast<int>(row.wall)] = row.heat;
 }
 
 void HeatPart::addTo(SummaryRows& rows) const {
     rows.addNumber("heat: stored in grains", heat.stored, "J");
     rows.addNumber("heat: from walls", heat.fromWalls, "J");
     for (const auto& [wall, given] : byWalls)
-        rows.addNumber(fmt::format("heat: from wall {}", wall), given.sum, "J");
+        rows.addNumber(fmt::format("heat: from wall {}", wall), given, "J");
     if (contactsHeat) {
         rows.addNumber("heat: from contacts, into grains", heat.fromContacts, "J");
         rows.addNumber("heat: from contacts, into walls", heat.toWalls, "J");

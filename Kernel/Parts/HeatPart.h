@@ -118,9 +118,9 @@ private:
         double conductivity;  // W/(m K); infinite
     };
 
-    struct GivenByWall {
-        double sum = 0;   // J, since the start
-        ExactSum ofStep;  // J
+    struct HeatOfWall {
+        int wall;       // its number
+        ExactSum heat;  // J
     };
 
     void setMaterialOf(int species, const HeatMaterial& material);
@@ -151,7 +151,8 @@ private:
     GrainColumnReference temperatures;
     std::map<int, HeatMaterial> materials;  // by species
     std::map<int, HeldWall> heldWalls;      // by number
-    std::map<int, GivenByWall> byWalls;     // by number, also of those that are held no more
+    std::map<int, double> byWalls;          // J, since the start, by number, also of those held no more
+    std::vector<HeatOfWall> ofStep;         // of the held walls that are there, by number
     const ContactLaws* laws = nullptr;      // of the scene, once it is set up
     EnergyAccount* account = nullptr;       // of a run that keeps a ledger
     Conduction conduction = Conduction::Constriction;

@@ -8,8 +8,8 @@ namespace pendular {
 
 Features MembranePart::features(const StepContext& scene) const {
     Features found;
-    for (std::size_t w = 0; w < scene.walls.getSize(); ++w)
-        if (scene.walls.getObject(w).membrane()) found.add(Feature::Membranes, fmt::format("wall {}", w));
+    for (const auto& [number, wall] : scene.walls.present())
+        if (wall->membrane()) found.add(Feature::Membranes, fmt::format("wall {}", number));
     return found;
 }
 

@@ -31,12 +31,12 @@ std::vector<BridgeCase> bridgesOf(Simulation<S>& scene, std::size_t count) {
     const auto anyBelow = [&](std::size_t number) {
         return static_cast<std::size_t>(random.uniform(0, static_cast<double>(number)));
     };
-    const std::size_t number = grains.size(), walls = scene.wallHandler.getSize();
+    const std::size_t number = grains.size(), walls = scene.wallHandler.present().size();
     if (number == 0 || (number == 1 && walls == 0)) return bridges;
     for (std::size_t k = 0; k < count; ++k) {
         const std::size_t i = anyBelow(number);
         if (walls > 0 && (k % 4 == 0 || number == 1)) {
-            const int wall = scene.wallHandler.getObject(anyBelow(walls)).getSpeciesIndex();
+            const int wall = scene.wallHandler.present()[anyBelow(walls)].object->getSpeciesIndex();
             add(scene.speciesHandler.mixture(grains.species[i], wall), {grains.translation[i].radius});
         } else {
             const std::size_t j = (i + 1 + anyBelow(number - 1)) % number;  // another one

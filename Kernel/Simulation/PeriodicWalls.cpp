@@ -114,24 +114,24 @@ void PeriodicWalls::requireShort(const RepeatedWall& wall, std::size_t number) c
     }
 }
 
-void PeriodicWalls::repeat(RepeatedWall& wall, std::size_t number) {
-    requireShort(wall, number);
+void PeriodicWalls::repeat(RepeatedWall& wall, WallLooks& of) {
+    requireShort(wall, of.number);
     if (wall.partCount() > WallImages::mostParts)
         throw InputError(fmt::format(
             "wall {} has {} parts, and it is not the same after a period: what is to be repeated with the "
             "scene has at most {}; take a coarser mesh.",
-            number, wall.partCount(), WallImages::mostParts));
+            of.number, wall.partCount(), WallImages::mostParts));
     wall.repeat(periodic.length);
     imagesAreNew = true;
-    takeAsRepeated(number);
+    takeAsRepeated(of);
 }
 
-void PeriodicWalls::takeAsRepeated(std::size_t number) {
+void PeriodicWalls::takeAsRepeated(WallLooks& of) {
     Look alike;
     alike.isEndless = false;
     alike.passes = true;
-    alike.needed = looks[number].needed;
-    looks[number].along.fill(alike);
+    alike.needed = of.needed;
+    of.along.fill(alike);
 }
 
 bool PeriodicWalls::mustBeRepeated(const Wall& wall, const SurfaceAtFaces& seen, const PeriodicFaces& faces,
@@ -146,14 +146,16 @@ bool PeriodicWalls::mustBeRepeated(const Wall& wall, const SurfaceAtFaces& seen,
 
 bool PeriodicWalls::areKnownFor(const WallHandler& walls, const ContactLaws& laws, const GrainSizes& sizes,
                                 double widestBody) const {
-    for (std::size_t w = 0; w < looks.size(); ++w) {
-        const auto* const wall = dynamic_cast<const RepeatedWall*>(&walls.getObject(w));
+    if (!std::ranges::equal(looks, walls.present(), {}, &WallLooks::number, &PresentWall::number))
+        return false;
+    for (const WallLooks& of : looks) {
+        const auto* const wall = dynamic_cast<const RepeatedWall*>(&walls.getObject(of.number));
         if (!wall || !wall->canBeRepeated() || wall->isRepeated()) continue;
         const double needed = neededOf(*wall, laws, sizes, 0.5 * widestBody);
-        for (const Look& known : looks[w].along)
+        for (const Look& known : of.along)
             if (!(needed + known.moved <= known.margin)) return false;
     }
-    return looks.size() == walls.getSize();
+    return true;
 }
 
 std::vector<RepeatedWall*> PeriodicWalls::wallsToRepeat(const WallHandler& walls, const PeriodicBox& box,
@@ -162,8 +164,8 @@ std::vector<RepeatedWall*> PeriodicWalls::wallsToRepeat(const WallHandler& walls
     PeriodicWalls own;
     std::vector<RepeatedWall*> found;
     if (!own.begin(box, widestBody, smallestRadius)) return found;
-    for (std::size_t w = 0; w < walls.getSize(); ++w) {
-        auto* const wall = dynamic_cast<RepeatedWall*>(&walls.getObject(w));
+    for (const PresentWall& present : walls.present()) {
+        auto* const wall = dynamic_cast<RepeatedWall*>(present.object.get());
         if (!wall || !wall->canBeRepeated() || wall->isRepeated()) continue;
         if (wall->partCount() > WallImages::mostParts) continue;  // it will be refused
         const double needed = neededOf(*wall, laws, sizes, own.bodyReach);
@@ -178,28 +180,35 @@ std::vector<RepeatedWall*> PeriodicWalls::wallsToRepeat(const WallHandler& walls
     return found;
 }
 
-void PeriodicWalls::look(const WallHandler& walls, std::size_t number, std::size_t axis, double outside) {
-    Wall& wall = walls.getObject(number);
+void PeriodicWalls::look(Wall& wall, WallLooks& of, std::size_t axis, double outside) {
     auto* const rigid = dynamic_cast<RigidWall*>(&wall);
-    const double needed = looks[number].needed;
-    if (wall.isRepeated()) return takeAsRepeated(number);
+    const double needed = of.needed;
+    if (wall.isRepeated()) return takeAsRepeated(of);
     const PeriodicFaces faces = facesOf(axis, needed);
     const SurfaceAtFaces seen = wall.atFaces(faces);
     const double met = needed + outside;
-    if (mustBeRepeated(wall, seen, faces, met)) return repeat(dynamic_cast<RepeatedWall&>(wall), number);
-    if (!isAlike(seen, met)) throw InputError(sentence(number, axis, seen, met));
-    looks[number].along[axis] = {.isEndless = seen.isEndless,
-                                 .passes = seen.passes,
-                                 .needed = needed,
-                                 .margin = seen.passes ? std::min(seen.margin, faces.width) : seen.margin,
-                                 .pose = rigid ? rigid->getPose() : Pose(),
-                                 .moved = 0};
+    if (mustBeRepeated(wall, seen, faces, met)) return repeat(dynamic_cast<RepeatedWall&>(wall), of);
+    if (!isAlike(seen, met)) throw InputError(sentence(of.number, axis, seen, met));
+    of.along[axis] = {.isEndless = seen.isEndless,
+                      .passes = seen.passes,
+                      .needed = needed,
+                      .margin = seen.passes ? std::min(seen.margin, faces.width) : seen.margin,
+                      .pose = rigid ? rigid->getPose() : Pose(),
+                      .moved = 0};
 }
 
-void PeriodicWalls::forgetChecks(std::size_t walls) {
+void PeriodicWalls::forgetChecks() {
     looks.clear();
-    hasEnds.assign(walls, false);
     anyHasEnds = false;
+}
+
+void PeriodicWalls::takePresent(const WallHandler& walls) {
+    std::vector<WallLooks> before = std::exchange(looks, {});
+    for (const PresentWall& wall : walls.present()) {
+        const auto known = std::ranges::lower_bound(before, wall.number, {}, &WallLooks::number);
+        const bool isKnown = known != before.end() && known->number == wall.number;
+        looks.push_back(isKnown ? std::move(*known) : WallLooks{.number = wall.number, .along = {}});
+    }
 }
 
 bool PeriodicWalls::begin(const PeriodicBox& box, double widestBody, double smallestRadius) {
@@ -212,26 +221,23 @@ bool PeriodicWalls::begin(const PeriodicBox& box, double widestBody, double smal
 void PeriodicWalls::check(const WallHandler& walls, bool haveChanged, const PeriodicBox& box,
                           const ContactLaws& laws, const GrainSizes& sizes, double widestBody,
                           double smallestRadius) {
-    const bool isOther = haveChanged || smallest != smallestRadius || looks.size() != walls.getSize();
+    const bool isOther = haveChanged || smallest != smallestRadius || looks.size() != walls.present().size();
     if (!(periodic.length == box.length))  // they were of another scene, or of an attempt that was refused
-        for (std::size_t w = 0; w < walls.getSize(); ++w)
-            if (auto* const wall = dynamic_cast<RepeatedWall*>(&walls.getObject(w))) wall->repeat({0, 0, 0});
-    if (!begin(box, widestBody, smallestRadius)) return forgetChecks(walls.getSize());
-    looks.resize(walls.getSize());
+        for (const PresentWall& wall : walls.present())
+            if (auto* const mesh = dynamic_cast<RepeatedWall*>(wall.object.get())) mesh->repeat({0, 0, 0});
+    hasEnds.assign(walls.getSize(), false);
+    if (!begin(box, widestBody, smallestRadius)) return forgetChecks();
+    takePresent(walls);
     double spare = infinity;
-    for (std::size_t w = 0; w < looks.size(); ++w) {
-        if (walls.isRemoved(w)) {
-            looks[w] = {};
-            continue;
-        }
-        const Wall& wall = walls.getObject(w);
-        const double needed = looks[w].needed = neededOf(wall, laws, sizes, bodyReach);
+    for (WallLooks& of : looks) {
+        Wall& wall = walls.getObject(of.number);
+        const double needed = of.needed = neededOf(wall, laws, sizes, bodyReach);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const Look& known = looks[w].along[axis];
+            const Look& known = of.along[axis];
             if (periodic.length.*along[axis] == 0) continue;
-            if (isOther || needed != known.needed || !isWhereItWas(wall, known)) look(walls, w, axis, 0);
+            if (isOther || needed != known.needed || !isWhereItWas(wall, known)) look(wall, of, axis, 0);
         }
-        for (const Look& known : looks[w].along) spare = std::min(spare, known.margin - needed);
+        for (const Look& known : of.along) spare = std::min(spare, known.margin - needed);
     }
     // The other half is left to walls that move.
     band = std::clamp(0.5 * spare, 0.0, widestBand * smallest);
@@ -241,14 +247,16 @@ void PeriodicWalls::check(const WallHandler& walls, bool haveChanged, const Peri
 void PeriodicWalls::visitState(StateArchive& archive, const WallHandler& walls) {
     // A wall that moves may have been alike at both faces when the run of the file began.
     std::vector<std::uint32_t> repeated;
-    for (std::uint32_t w = 0; w < walls.getSize(); ++w)
-        if (walls.getObject(w).isRepeated()) repeated.push_back(w);
+    for (const auto& [number, wall] : walls.present())
+        if (wall->isRepeated()) repeated.push_back(static_cast<std::uint32_t>(number));
     archive.column<std::uint32_t>("repeatedWalls", repeated);
     for (const std::uint32_t number : repeated) {
         auto* const wall =
             number < walls.getSize() ? dynamic_cast<RepeatedWall*>(&walls.getObject(number)) : nullptr;
         archive.require(wall && wall->canBeRepeated(), "repeatedWalls", "has a wall that cannot be repeated");
-        repeat(*wall, number);
+        const auto known = std::ranges::find(looks, number, &WallLooks::number);
+        archive.require(known != looks.end(), "repeatedWalls", "has walls that this scene does not repeat");
+        repeat(*wall, *known);
     }
     imagesAreNew = false;  // contacts are listed after this
     archive.finite("band", band);
@@ -258,9 +266,12 @@ void PeriodicWalls::visitState(StateArchive& archive, const WallHandler& walls) 
 
 void PeriodicWalls::collectEnds() {
     nearest = 0;
-    hasEnds.clear();
-    for (const WallLooks& each : looks) hasEnds.push_back(!std::ranges::all_of(each.along, &Look::isEndless));
-    anyHasEnds = std::ranges::find(hasEnds, true) != hasEnds.end();
+    anyHasEnds = false;
+    for (const WallLooks& each : looks) {
+        const bool ends = !std::ranges::all_of(each.along, &Look::isEndless);
+        hasEnds[each.number] = ends;
+        anyHasEnds = anyHasEnds || ends;
+    }
 }
 
 bool PeriodicWalls::isWhereItWas(const Wall& wall, const Look& last) {
@@ -290,25 +301,23 @@ bool PeriodicWalls::mustBeLookedAt(const Wall& wall, std::size_t axis, WallLooks
     return !(last.moved <= spare);
 }
 
-bool PeriodicWalls::followOne(const WallHandler& walls, std::size_t number, double shift) {
-    const Wall& wall = walls.getObject(number);
+bool PeriodicWalls::followOne(Wall& wall, WallLooks& of, double shift) {
     if (wall.isRepeated()) {
-        requireShort(dynamic_cast<const RepeatedWall&>(wall), number);
+        requireShort(dynamic_cast<const RepeatedWall&>(wall), of.number);
         return false;
     }
     bool looked = false;
     for (std::size_t axis = 0; axis < 3; ++axis)
-        if (mustBeLookedAt(wall, axis, looks[number], shift)) look(walls, number, axis, band), looked = true;
+        if (mustBeLookedAt(wall, axis, of, shift)) look(wall, of, axis, band), looked = true;
     return looked;
 }
 
 void PeriodicWalls::follow(const WallHandler& walls, double shift, double time) {
     if (shift == 0 || looks.empty()) return;
     bool lookedAgain = false;
-    for (std::size_t w = 0; w < looks.size(); ++w) {
-        if (walls.isRemoved(w)) continue;
+    for (WallLooks& of : looks) {
         try {
-            lookedAgain |= followOne(walls, w, shift);
+            lookedAgain |= followOne(walls.getObject(of.number), of, shift);
         } catch (const InputError& refusal) {
             throw RunError(fmt::format("At time {:.6g} s {}", time, refusal.what()));
         }

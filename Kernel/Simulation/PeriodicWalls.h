@@ -72,7 +72,8 @@ private:
         double moved = 0;          // m, since then
     };
     struct WallLooks {
-        double needed = 0;  // m, from a grain on a face, as far as it meets the wall
+        std::size_t number;  // of the wall
+        double needed = 0;   // m, from a grain on a face, as far as it meets the wall
         std::array<Look, 3> along;
     };
     /// Takes what looks are made with. Returns whether grains go through faces and see walls that may end.
@@ -81,17 +82,19 @@ private:
     /// @param met m, from a face, as far as grains meet it
     [[nodiscard]] static bool mustBeRepeated(const Wall& wall, const SurfaceAtFaces& seen,
                                              const PeriodicFaces& faces, double met);
+    /// Keeps what was found at the walls that are still there.
+    void takePresent(const WallHandler& walls);
     /// @param outside m, how far grains are outside
-    void look(const WallHandler& walls, std::size_t wall, std::size_t axis, double outside);
+    void look(Wall& wall, WallLooks& of, std::size_t axis, double outside);
     /// Repeats a wall with the scene. Throws InputError where it is too long, or has too many parts.
-    void repeat(RepeatedWall& wall, std::size_t number);
-    void takeAsRepeated(std::size_t number);
+    void repeat(RepeatedWall& wall, WallLooks& of);
+    static void takeAsRepeated(WallLooks& of);
     /// Throws InputError where a wall that is repeated reaches over too many periods.
     void requireShort(const RepeatedWall& wall, std::size_t number) const;
     /// Returns whether it was looked at again.
-    bool followOne(const WallHandler& walls, std::size_t number, double shift);
+    bool followOne(Wall& wall, WallLooks& of, double shift);
     [[nodiscard]] static bool isWhereItWas(const Wall& wall, const Look& last);
-    void forgetChecks(std::size_t walls);
+    void forgetChecks();
     /// m, from a grain on a face, as far as it meets a wall. @param bodyReach m
     [[nodiscard]] static double neededOf(const Wall& wall, const ContactLaws& laws, const GrainSizes& sizes,
                                          double bodyReach);
@@ -104,11 +107,11 @@ private:
     void approach(const Vector<double>& centre);
 
     PeriodicBox periodic;
-    double smallest = infinity;  // m, radius
-    double bodyReach = 0;        // m, of the widest body around its centre
-    double band = 0;             // m, as far as grains may be outside
-    std::vector<WallLooks> looks;
-    std::vector<bool> hasEnds;
+    double smallest = infinity;    // m, radius
+    double bodyReach = 0;          // m, of the widest body around its centre
+    double band = 0;               // m, as far as grains may be outside
+    std::vector<WallLooks> looks;  // of the present walls
+    std::vector<bool> hasEnds;     // by number
     bool anyHasEnds = false, imagesAreNew = false;
     double nearest = 0;  // m, by which grains must move until one of them is too far outside
 };

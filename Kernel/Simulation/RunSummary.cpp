@@ -75,8 +75,13 @@ std::vector<std::string> warnings(const Scene& scene, bool atEnd) {
 void addStepForError(SummaryRows& rows, const StepForError& chosen) {
     rows.addNumber("step for an error of", chosen.asked, "1");
     rows.addNumber("speed of collisions", chosen.speed, "m/s");
-    rows.addNumber("error of collisions, largest", chosen.largest, "1");
-    rows.addNumber("error of collisions, mean", chosen.mean, "1");
+    if (chosen.known) {
+        rows.addNumber("error of collisions, largest", chosen.largest, "1");
+        rows.addNumber("error of collisions, mean", chosen.mean, "1");
+    } else {
+        rows.add("error of collisions",
+                 chosen.together ? "not known: all bodies stay together" : "not known");
+    }
     if (chosen.step > chosen.limit)
         rows.add("not promised by this step",
                  "that a bed whose friction sticks stays at rest, and that overlaps near 5 % are borne");
@@ -105,7 +110,7 @@ void addRun(SummaryRows& rows, const Scene& scene) {
     rows.add("grains", scene.particleHandler.getSize());
     if (const std::size_t bodies = scene.particleHandler.store().bodies.size(); bodies > 0)
         rows.add("rigid bodies", bodies);
-    rows.add("walls", numberOfWalls(scene.wallHandler));
+    rows.add("walls", scene.wallHandler.present().size());
     const Vec3D g = scene.getGravity();
     rows.add("gravity", fmt::format("{} {} {}", g.x(), g.y(), g.z()), "m/s^2");
 }

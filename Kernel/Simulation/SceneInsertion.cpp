@@ -52,10 +52,10 @@ static double addTo(GrainSizes& sizes, const BodyMixture& mixture) {
 
 /// Whether there is a wall that is not repeated, but may be.
 static bool mayRepeat(const WallHandler& walls) {
-    for (std::size_t w = 0; w < walls.getSize(); ++w)
-        if (const auto* const wall = dynamic_cast<const RepeatedWall*>(&walls.getObject(w)))
-            if (wall->canBeRepeated() && !wall->isRepeated()) return true;
-    return false;
+    return std::ranges::any_of(walls.present(), [](const PresentWall& wall) {
+        const auto* const repeated = dynamic_cast<const RepeatedWall*>(wall.object.get());
+        return repeated && repeated->canBeRepeated() && !repeated->isRepeated();
+    });
 }
 
 ImagesForNow Scene::Inside::imagesFor(const BodyMixture& mixture) {

@@ -54,9 +54,9 @@ static std::string_view nameOf(HeldContacts which) {
 static constexpr std::string_view listOfKept = "the list of walls whose forces are kept";
 static std::string wallsThatKeepForces(const WallHandler& walls) {
     std::string list;
-    for (std::size_t w = 0; w < walls.getSize(); ++w)
-        if (!walls.isRemoved(w) && walls.getObject(w).keepsForces())
-            fmt::format_to(std::back_inserter(list), "{}{}", list.empty() ? "" : ", ", w);
+    for (const auto& [number, wall] : walls.present())
+        if (wall->keepsForces())
+            fmt::format_to(std::back_inserter(list), "{}{}", list.empty() ? "" : ", ", number);
     return list.empty() ? "empty" : list;
 }
 

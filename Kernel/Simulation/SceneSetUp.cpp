@@ -51,8 +51,7 @@ void Scene::Inside::setUp() {
     ParticleHandler& particles = scene.particleHandler;
     scene.setupInitialConditions();
     // The account tells what slides at walls that wear.
-    account.noteWear(std::ranges::any_of(wornWalls(scene.wallHandler),
-                                         [](const WornWall* wall) { return wall != nullptr; }));
+    account.noteWear(!wornWalls(scene.wallHandler).empty());
     scene.prepareOutputs();
     scene.requireTimeStep();
     account.show(context);
@@ -90,11 +89,10 @@ void Scene::Inside::setUp() {
 
 Features Scene::Inside::featuresOfScene() const {
     Features found;
-    if (numberOfWalls(scene.wallHandler) > 0) found.add(Feature::Walls);
-    for (const WornWall* const worn : wornWalls(scene.wallHandler)) {
-        if (!worn) continue;
+    if (!scene.wallHandler.present().empty()) found.add(Feature::Walls);
+    for (const NumberedWornWall& worn : wornWalls(scene.wallHandler)) {
         found.add(Feature::WornWalls);
-        if (worn->wearLaw().needsImpacts()) found.add(Feature::ImpactWear);
+        if (worn.wall->wearLaw().needsImpacts()) found.add(Feature::ImpactWear);
     }
     if (laws().shapes()) found.add(Feature::Superquadrics);
     if (laws().resistsMotion) found.add(Feature::ViscousBridges);
@@ -133,11 +131,9 @@ bool Scene::Inside::takesSpringsInStep(const GrainSizes& sizes) const {
 
 static void refuseWalls(const GrainShapes* shapes, const WallHandler& walls) {
     if (!shapes) return;
-    for (std::size_t w = 0; w < walls.getSize(); ++w) {
-        if (walls.isRemoved(w)) continue;
-        if (const std::string reason = shapes->objectionTo(walls.getObject(w)); !reason.empty())
-            throw InputError(fmt::format("wall {}: {}.", w, reason));
-    }
+    for (const auto& [number, wall] : walls.present())
+        if (const std::string reason = shapes->objectionTo(*wall); !reason.empty())
+            throw InputError(fmt::format("wall {}: {}.", number, reason));
 }
 
 void Scene::Inside::check() {

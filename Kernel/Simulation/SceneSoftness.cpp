@@ -96,10 +96,10 @@ std::vector<std::string> othersIn(Scene& scene, double factor) {
                         "{:.3g} too. They "
                         "then break at other strains.",
                         factor));
-    for (std::size_t w = 0; w < scene.wallHandler.getSize(); ++w)
-        if (!scene.wallHandler.isRemoved(w) && scene.wallHandler.getObject(w).membrane())
+    for (const auto& [number, wall] : scene.wallHandler.present())
+        if (wall->membrane())
             others.push_back(fmt::format(
-                "Wall {} is a membrane, whose springs limit the step too and stay as they are.", w));
+                "Wall {} is a membrane, whose springs limit the step too and stay as they are.", number));
     if (scene.laws().isPlastic)
         others.push_back("Nothing is known of plastic grains, whose yield is a stress.");
     return others;

@@ -40,6 +40,8 @@ struct Meeting {
     std::size_t species1, species2;
     Bodies bodies;
     double halfPeriod;   // s
+    double touchTime;    // s, about, of a touch without dashpots: at least half a period
+    double relaxation;   // s, of the speed by the dashpot along the normal
     double range;        // m, of the gap at which they begin to attract each other
     double quicker = 1;  // so many times as long is a touch as computed, because forces move the wall
 
@@ -52,32 +54,63 @@ struct Approach {
     double gap;           // m
 };
 
-/// What is left of the relative motion, along and across the first normal; nothing of bodies that stay
-/// together.
+/// The end of a collision.
+enum class End {
+    Parted,
+    DrawnBack,  // by what holds them, with less energy than parting takes
+    Creeps      // they neither part nor are drawn back in a bounded time: overdamped, or sinter
+};
+
+/// What is left of the relative motion, along and across the first normal; nothing of bodies that are drawn
+/// back.
 struct Aftermath {
     double parting = 0, slip = 0, rim1 = 0, rim2 = 0;  // m/s
     double contactTime = 0;                            // s, of the first touch
-    bool parted = false;
+    End end = End::DrawnBack;
 
+    [[nodiscard]] bool parted() const { return end == End::Parted; }
     [[nodiscard]] std::array<double, 4> motion() const { return {parting, slip, rim1, rim2}; }
+    /// m/s, how far another one is from this; none of two pairs that stay together.
+    [[nodiscard]] std::array<double, 4> errorOf(const Aftermath& other) const {
+        std::array<double, 4> errors{};
+        if (!parted() && !other.parted()) return errors;
+        for (std::size_t k = 0; k < errors.size(); ++k) errors[k] = other.motion()[k] - motion()[k];
+        return errors;
+    }
+};
+
+/// The steps that all collisions have taken. Each ends in a bounded time, but there may be many.
+class Work {
+public:
+    struct IsTooMuch {};
+
+    explicit Work(std::size_t meetings) : most(mostOfMeeting * meetings) {}
+    void addStep() {
+        if (++count > most) throw IsTooMuch{};
+    }
+    [[nodiscard]] std::size_t steps() const { return count; }
+
+private:
+    static constexpr std::size_t mostOfMeeting = 30'000'000;  // about a minute
+    std::size_t most, count = 0;
 };
 
 /// The scene of a collision, along x.
 class Collision : public Scene {
 public:
-    Collision(ContactLaws& of, const Meeting& pair, const Approach& approach, double step,
+    Collision(ContactLaws& of, const Meeting& pair, const Approach& given, double step,
               const Integrator& integrator)
-        : meeting(pair) {
+        : meeting(pair), approach(given) {
         setLaws(of);
         const double m1 = of.massOf(pair.species1, pair.bodies.radius1);
         const double share =
             pair.isAtWall() ? 1 : 1 - m1 / (m1 + of.massOf(pair.species2, pair.bodies.radius2));
-        addGrain({pair.species1, of.owner()}, pair.bodies.radius1, -1, share, approach);
+        addGrain({pair.species1, of.owner()}, pair.bodies.radius1, -1, share);
         if (pair.isAtWall()) {
             const SpeciesAt species{pair.species2, of.owner()};
             wallHandler.copyAndAddObject(InfiniteWall({1, 0, 0}, {0, 0, 0}, &species));
         } else {
-            addGrain({pair.species2, of.owner()}, pair.bodies.radius2, 1, 1 - share, approach);
+            addGrain({pair.species2, of.owner()}, pair.bodies.radius2, 1, 1 - share);
         }
         setTimeStep(step);
         setIntegrator(integrator);
@@ -88,31 +121,47 @@ public:
     ~Collision() override { completeLeftRun(); }
 
     /// Until the bodies have parted, and no bridge or neck holds them, or are drawn back to each other: they
-    /// have less energy than parting takes then, as nothing gives them any.
-    Aftermath finish() {
+    /// have less energy than parting takes then, as nothing gives them any. Overdamped bodies, and those that
+    /// sinter, do neither: see creeps().
+    Aftermath finish(Work& work) {
         initialise();
         Aftermath seen;
         std::optional<double> begin;  // s, of the touch
         for (bool leaves = false;;) {
             step();
+            work.addStep();
             const bool touches = overlap() > 0;
             const Vec3D relative = velocityOf(1) - velocityOf(0);
             const double parting = relative.dot(normal());
             if (touches && !begin) begin = getTime();
-            if (!begin) continue;
-            if (!touches && seen.contactTime == 0) seen.contactTime = getTime() - *begin;
-            if (leaves && parting < 0) return seen;
-            leaves = parting > 0;
-            if (!touches && !(contactForceOn(0).squaredNorm() > 0))
-                return {relative.x(), relative.y(), rimOf(0), rimOf(1), seen.contactTime, true};
-            if (getNumberOfTimeSteps() > mostSteps)
-                return seen;  // hardly faster than those that are drawn back
+            const bool isStuck = creeps(begin, touches, parting);
+            if (begin) {
+                if (!touches && seen.contactTime == 0) seen.contactTime = getTime() - *begin;
+                if (leaves && parting < 0) return seen;
+                leaves = parting > 0;
+            }
+            const bool hasParted = begin && !touches && !(contactForceOn(0).squaredNorm() > 0);
+            if (hasParted || isStuck)
+                return {relative.x(), relative.y(),     rimOf(0),
+                        rimOf(1),     seen.contactTime, hasParted ? End::Parted : End::Creeps};
         }
     }
 
 private:
-    void addGrain(const SpeciesAt& species, double radius, double side, double share,
-                  const Approach& approach) {
+    /// Whether the collision ends as creeping: the energy of the approach or parting has been below 1e-10 of
+    /// the initial one for four contact times, or the touch, or the bridge after it, lasts too long. Elastic
+    /// bodies are so slow only where they turn, for 1e-5 of a contact time, and 1e-5 of the speed is a tenth
+    /// of the smallest error that can be asked for. By Hertz's law a touch at a lower speed lasts longer, as
+    /// the fifth root: 40 times as long at 1e-8 of the speed that gives the largest sound overlap.
+    [[nodiscard]] bool creeps(const std::optional<double>& begin, bool touches, double parting) {
+        constexpr double still = 1e-5, stillTimes = 4, longestTouch = 100, longestBridge = 2000;
+        const double now = getTime(), unit = meeting.touchTime;
+        if (!begin) return now > 2 * approach.gap / approach.normal + longestTouch * unit;
+        if (!(std::abs(parting) < still * std::hypot(approach.normal, approach.slip))) lastMoved = now;
+        return now - lastMoved > stillTimes * unit ||
+               now - *begin > (touches ? longestTouch : longestBridge) * unit;
+    }
+    void addGrain(const SpeciesAt& species, double radius, double side, double share) {
         SphericalParticle grain;
         grain.setSpecies(&species);
         grain.setRadius(radius);
@@ -142,9 +191,9 @@ private:
         return grain.getRadius() * grain.getAngularVelocity().z();
     }
 
-    static constexpr std::size_t mostSteps = 4'000'000;
-
     Meeting meeting;
+    Approach approach;
+    double lastMoved = 0;  // s, when they were not still
 };
 
 /// Largest and mean errors over some collisions, as shares of the speed; the mean is that of the angle at
@@ -153,23 +202,25 @@ struct CollisionErrors {
     double largest = 0, mean = 0;
 
     void include(std::span<const Aftermath> seen, const Aftermath& exact, double speed) {
-        for (std::size_t k = 0; k < exact.motion().size(); ++k) {
-            double sum = 0;
-            for (const Aftermath& one : seen) {
-                const double error = (one.motion()[k] - exact.motion()[k]) / speed;
+        std::array<double, 4> sums{};
+        for (const Aftermath& one : seen) {
+            const std::array<double, 4> errors = exact.errorOf(one);
+            for (std::size_t k = 0; k < errors.size(); ++k) {
+                const double error = errors[k] / speed;
                 // One that is not a number is larger than all.
                 largest = std::isnan(error) ? infinity : std::max(largest, std::abs(error));
-                sum += error;
+                sums[k] += error;
             }
-            mean = std::max(mean, std::abs(sum) / static_cast<double>(seen.size()));
         }
+        for (const double sum : sums) mean = std::max(mean, std::abs(sum) / static_cast<double>(seen.size()));
     }
 };
 
 /// The collisions of two bodies, at some angles.
 class Collisions {
 public:
-    Collisions(Scene& of, const Meeting& pair, double atSpeed) : scene(of), meeting(pair), speed(atSpeed) {
+    Collisions(Scene& of, const Meeting& pair, double atSpeed, Work& toDo)
+        : scene(of), meeting(pair), speed(atSpeed), work(toDo) {
         for (const double degrees : {0.0, 15.0, 45.0, 75.0}) {
             const double angle = degrees * std::numbers::pi / 180;
             Angle at{.normal = speed * std::cos(angle), .slip = speed * std::sin(angle)};
@@ -182,7 +233,8 @@ public:
                                 "be computed; give a lower speed or stiffer grains ({}).",
                                 speed, meeting.species1, meeting.species2, withoutFullStop(error.what())));
             }
-            anyParts |= at.exact.parted;
+            anyParts |= at.exact.parted();
+            anyCreeps |= at.exact.end == End::Creeps;
             // Bodies that stay together have no time of a contact.
             contactTime =
                 std::min(contactTime, at.exact.contactTime > 0 ? at.exact.contactTime : meeting.halfPeriod);
@@ -191,13 +243,18 @@ public:
     }
     [[nodiscard]] const Meeting& pair() const { return meeting; }
     [[nodiscard]] bool someParts() const { return anyParts; }
+    [[nodiscard]] bool someCreep() const { return anyCreeps; }
 
-    /// Over beginnings of the touch within a step, and steps a contact from n to n + 1.
+    /// Over beginnings of the touch within a step, and steps a contact from n to n + 1. Of angles at which
+    /// the bodies creep no error is known. At others they may slide past each other for a hundred times as
+    /// long as others touch, and few of these collisions are looked at.
     /// @param enough an error at which it does not matter how large it is
     [[nodiscard]] CollisionErrors errorsAt(double steps, double enough = infinity) const {
         CollisionErrors errors;
         std::vector<Aftermath> seen;
+        const int lengths = anyCreeps ? 1 : mostLengths, beginnings = anyCreeps ? 4 : mostBeginnings;
         for (const Angle& at : angles) {
+            if (at.exact.end == End::Creeps) continue;
             seen.clear();
             for (int length = 0; length < lengths; ++length)
                 for (int k = 0; k < beginnings; ++k) {
@@ -218,8 +275,10 @@ public:
         return errors;
     }
     /// s, not above a step: up to which all steps are as exact as asked, looked at from a fifth of a contact
-    /// on. An error that is small by chance is not so at the next numbers of steps, too.
-    [[nodiscard]] double longestStep(double error, double notAbove) const {
+    /// on. An error that is small by chance is not so at the next numbers of steps, too. Where bodies creep
+    /// and need shorter steps than all of these, the relaxation time is what is known.
+    [[nodiscard]] double longestStep(double error, double notAbove) {
+        if (stepsAt(notAbove) == mostSteps && errorsAt(mostSteps, error).largest <= error) return notAbove;
         int within = 0;  // so many numbers of steps one after the other
         for (double steps = std::max(fewestSteps, stepsAt(notAbove) - 1); steps < 1.6 * mostSteps;
              steps *= 1.25) {
@@ -227,16 +286,26 @@ public:
             if (within == 3)
                 return std::min(notAbove, meeting.quicker * contactTime / (steps / (1.25 * 1.25) + 1));
         }
+        if (!anyCreeps) refuseError(error);
+        errorIsKnown = false;
+        return std::min(notAbove, meeting.relaxation);
+    }
+    [[noreturn]] void refuseError(double error) const {
         throw InputError(fmt::format(
             "setStepFor: an error of {:.4g} needs more than {:.0f} steps in a contact of species {} with {}; "
             "ask for a larger error, or take an integrator that is more exact in it.",
             error, mostSteps, meeting.species1, meeting.species2));
     }
-    [[nodiscard]] double stepsAt(double step) const { return meeting.quicker * contactTime / step; }
+    [[nodiscard]] bool isErrorKnown() const { return errorIsKnown && anyParts; }
+    /// In a contact, or the most that are looked at: with more, as where another pair needs a shorter step,
+    /// it is more exact than with these.
+    [[nodiscard]] double stepsAt(double step) const {
+        return std::min(meeting.quicker * contactTime / step, mostSteps);
+    }
 
 private:
     static constexpr double stepsOfExact = 2000, fewestSteps = 5, mostSteps = 1000;
-    static constexpr int lengths = 4, beginnings = 16;
+    static constexpr int mostLengths = 4, mostBeginnings = 16;
 
     struct Angle {
         double normal, slip;  // m/s
@@ -246,15 +315,16 @@ private:
     [[nodiscard]] Aftermath finish(const Angle& at, double step, double before,
                                    const Integrator& integrator) const {
         const Approach approach{at.normal, at.slip, meeting.range + before * step * at.normal};
-        return Collision(scene.laws(), meeting, approach, step, integrator).finish();
+        return Collision(scene.laws(), meeting, approach, step, integrator).finish(work);
     }
 
     Scene& scene;
     Meeting meeting;
     double speed;                   // m/s
     double contactTime = infinity;  // s, the shortest
+    Work& work;
     std::vector<Angle> angles;
-    bool anyParts = false;
+    bool anyParts = false, anyCreeps = false, errorIsKnown = true;
 };
 
 /// By how much a touch of a mass (kg) at a wall that forces move is shorter than at one that is held:
@@ -262,17 +332,29 @@ private:
 /// taken to be as exact at the other with as many steps in the touch.
 double quickerAtWall(const Scene& scene, int wallSpecies, double mass) {
     double mobility = 0;
-    for (std::size_t w = 0; w < scene.wallHandler.getSize(); ++w)
-        if (const Wall& wall = scene.wallHandler.getObject(w);
-            !scene.wallHandler.isRemoved(w) && wall.getSpeciesIndex() == wallSpecies)
-            mobility = std::max(mobility, mobilityOfWall(wall));
+    for (const PresentWall& wall : scene.wallHandler.present())
+        if (wall.object->getSpeciesIndex() == wallSpecies)
+            mobility = std::max(mobility, mobilityOfWall(*wall.object));
     return 1 / std::sqrt(1 + mass * mobility);
+}
+
+/// s, of two bodies along the normal alone: friction may be stiffer.
+double touchTime(const PairLaws& pair, const Bodies& bodies, double effectiveMass) {
+    const double overlap = largestSoundOverlap * std::min(bodies.radius1, bodies.radius2),
+                 spring = pair.laws.normalStiffness(pair.a, pair.b, bodies, overlap);
+    return std::max(halfPeriod(pair, bodies, effectiveMass),
+                    std::numbers::pi * std::sqrt(effectiveMass / spring));
 }
 
 Meeting meetingOf(const PairLaws& pair, const Bodies& bodies, double effectiveMass) {
     const bool attractsBefore = !pair.laws.ofPair(pair.a, pair.b).formsAtContact;
-    return {static_cast<std::size_t>(pair.a), static_cast<std::size_t>(pair.b), bodies,
-            halfPeriod(pair, bodies, effectiveMass), attractsBefore ? pair.range(bodies) : 0};
+    return {static_cast<std::size_t>(pair.a),
+            static_cast<std::size_t>(pair.b),
+            bodies,
+            halfPeriod(pair, bodies, effectiveMass),
+            touchTime(pair, bodies, effectiveMass),
+            effectiveMass / contactStiffness(pair, bodies, effectiveMass).normal.dashpot,
+            attractsBefore ? pair.range(bodies) : 0};
 }
 
 /// For each two species, and each species with each wall's, the bodies that part soonest. A wall that forces
@@ -295,9 +377,9 @@ std::vector<Meeting> meetingsOf(Scene& scene) {
                            keep(found);
                        });
     const double longest = 10 * shortestHalfPeriod(scene.laws(), sizes, scene.wallHandler);  // s
-    for (std::size_t w = 0; w < scene.wallHandler.getSize(); ++w) {
-        const Wall& wall = scene.wallHandler.getObject(w);
-        if (scene.wallHandler.isRemoved(w) || !(mobilityOfWall(wall) > 0)) continue;
+    for (const PresentWall& present : scene.wallHandler.present()) {
+        const Wall& wall = *present.object;
+        if (!(mobilityOfWall(wall) > 0)) continue;
         forEachAtWall(scene.laws(), sizes.carriers(), wall,
                       [&](const PairLaws& pair, const Bodies& bodies, double mass) {
                           Meeting found = meetingOf(pair, bodies, mass);
@@ -353,6 +435,43 @@ void refuseLightBodies(const Scene& scene, const ParticleStore& grains) {
     }
 }
 
+/// Takes note of bodies of which no error, or not all, is known.
+void noteTogether(const Collisions& of, StepForError& found) {
+    found.together = found.together && !of.someParts();
+    if (of.someParts() && !of.someCreep()) return;
+    // The stability limit is what is known of their motion.
+    found.byCollisions = std::min(found.byCollisions, found.limit);
+    if (of.someCreep() && !found.creeping)
+        found.creeping = {of.pair().species1, of.pair().species2, of.pair().isAtWall()};
+}
+
+/// Whether all known errors at the step are as small as asked for.
+bool keepsToError(const std::vector<Collisions>& collisions, StepForError& found) {
+    found.largest = found.mean = 0;
+    for (const Collisions& of : collisions) {
+        if (!of.isErrorKnown()) continue;
+        found.known = true;
+        const CollisionErrors errors = of.errorsAt(of.stepsAt(found.step));
+        if (errors.largest < found.largest) continue;
+        found.largest = errors.largest, found.mean = errors.mean;
+        found.species1 = of.pair().species1, found.species2 = of.pair().species2;
+        found.atWall = of.pair().isAtWall();
+    }
+    return found.largest <= found.asked;
+}
+
+void chooseStep(Scene& scene, const std::vector<Meeting>& meetings, Work& work, StepForError& found) {
+    std::vector<Collisions> collisions;
+    for (const Meeting& meeting : meetings) collisions.emplace_back(scene, meeting, found.speed, work);
+    for (const Collisions& of : collisions) noteTogether(of, found);
+    for (Collisions& of : collisions) found.byCollisions = of.longestStep(found.asked, found.byCollisions);
+    // At the step that is taken others were not looked at, nor steps a little shorter.
+    constexpr int mostShortenings = 50;  // a hundredth
+    found.step = found.byCollisions;
+    for (int k = 0; !keepsToError(collisions, found); ++k, found.step /= 1.1)
+        if (k == mostShortenings) collisions.front().refuseError(found.asked);
+}
+
 }  // namespace
 
 StepForError findStepForError(Scene& scene, double error, std::optional<double> speed) {
@@ -376,35 +495,40 @@ StepForError findStepForError(Scene& scene, double error, std::optional<double> 
         throw InputError(
             "setStepFor: all grains are at rest and nothing lets them fall; give the speed (m/s) "
             "at which they will meet.");
-    std::vector<Collisions> collisions;
-    for (const Meeting& meeting : meetings) collisions.emplace_back(scene, meeting, found.speed);
     found.byBeds = found.byCollisions = stepOfBeds(scene, error);
-    for (const Collisions& of : collisions) {
-        found.byCollisions = of.longestStep(error, found.byCollisions);
-        found.together &= !of.someParts();
-    }
-    // At the step that is taken others were not looked at, nor steps a little shorter.
-    for (found.step = found.byCollisions;; found.step /= 1.1) {
+    Work work(meetings.size());
+    try {
+        chooseStep(scene, meetings, work, found);
+    } catch (const Work::IsTooMuch&) {
+        found.step = found.byCollisions = std::min(found.byBeds, found.limit);
         found.largest = found.mean = 0;
-        for (const Collisions& of : collisions) {
-            const CollisionErrors errors = of.errorsAt(of.stepsAt(found.step));
-            if (errors.largest < found.largest) continue;
-            found.largest = errors.largest, found.mean = errors.mean;
-            found.species1 = of.pair().species1, found.species2 = of.pair().species2;
-            found.atWall = of.pair().isAtWall();
-        }
-        if (found.largest <= error) return found;
+        found.together = found.known = false;
     }
+    found.steps = work.steps();
+    return found;
 }
 
 std::string StepForError::text() const {
-    std::string said = fmt::format(
-        "A step of {:.4g} s for an error of {:.4g}: collisions at {:.4g} m/s are computed with an error of "
-        "at "
-        "most {:.2g} of the speed, {:.2g} in the mean (species {} with {} {}).",
-        step, asked, speed, largest, mean, species1, atWall ? "a wall of" : "species", species2);
-    if (together) said += " At this speed they stay together, so their error is not known.";
-    if (step <= limit) return said + fmt::format(" It is below the stability limit ({:.4g} s).", limit);
+    const auto nameOf = [](std::size_t a, std::size_t b, bool wall) {
+        return fmt::format("species {} with {} {}", a, wall ? "a wall of" : "species", b);
+    };
+    std::string said = fmt::format("A step of {:.4g} s for an error of {:.4g}: ", step, asked);
+    if (known)
+        said += fmt::format(
+            "collisions at {:.4g} m/s are computed with an error of at most {:.2g} of the speed, {:.2g} in "
+            "the "
+            "mean ({}).",
+            speed, largest, mean, nameOf(species1, species2, atWall));
+    else if (together)
+        said += fmt::format("at {:.4g} m/s all bodies stay together, so their error is not known.", speed);
+    else said += fmt::format("collisions at {:.4g} m/s last too long for their error to be found.", speed);
+    if (creeping)
+        said += fmt::format(
+            " Bodies of {} creep: after a collision they neither part nor are drawn back, because they are "
+            "overdamped or sinter.",
+            nameOf(creeping->species1, creeping->species2, creeping->atWall));
+    if (step == limit) return said + " It is the stability limit.";
+    if (step < limit) return said + fmt::format(" It is below the stability limit ({:.4g} s).", limit);
     return said + fmt::format(
                       " It is {:.3g} times the stability limit ({:.4g} s): that a bed whose friction "
                       "sticks stays at rest, and that overlaps near 5 % of a radius are borne, is "

@@ -21,6 +21,14 @@ struct StepForError {
     std::size_t species1 = 0, species2 = 0;  // of the collision with the largest error
     bool atWall = false;                     // with a wall of species 2
     bool together = true;  // all bodies stay together at this speed: their error is not known
+    /// Bodies that neither part nor are drawn back: overdamped, or they sinter.
+    struct Pair {
+        std::size_t species1, species2;
+        bool atWall;
+    };
+    std::optional<Pair> creeping{};
+    std::size_t steps = 0;  // that all collisions took
+    bool known = false;     // whether an error is: not where all stay together, or collisions last too long
 
     /// What was found and what is lost, in a few sentences.
     [[nodiscard]] std::string text() const;
@@ -37,6 +45,10 @@ struct StepForError {
 /// for the exact one. Liquid that moves is not there: these collisions are dry. Grains of rigid bodies meet
 /// as single ones, which part sooner: a body of solid spheres is no lighter at any contact than one of them
 /// alone.
+///
+/// Where bodies stay together no error is known, and the step is at most stabilityLimit(). A collision ends
+/// as creeping when the bodies have moved towards or from each other at less than 1e-5 of the speed for four
+/// contact times, or touch for a hundred, or are drawn apart for two thousand.
 ///
 /// A bed has more: at most 0.9 over the highest frequency of two grains, up to which figures of poured beds
 /// and drums were right to 1 % with the default integrator (Kernel/Motion/README.md), half of that with

@@ -61,11 +61,11 @@ bool overlapsWall(const ContactSystem& contacts, const ParticleStore& grains, st
 
 Names findAtWall(const ContactSystem& contacts, const ParticleStore& grains, const WallHandler& walls,
                  const std::vector<std::uint32_t>& held) {
-    for (std::size_t w = 0; w < walls.getSize(); ++w) {
-        if (walls.isRemoved(w) || contacts.listedOfHeld().atWall(w)) continue;
+    for (const auto& [number, wall] : walls.present()) {
+        if (contacts.listedOfHeld().atWall(number)) continue;
         for (const std::uint32_t place : held)
-            if (overlapsWall(contacts, grains, place, walls.getObject(w)))
-                return {{nameOfGrain(grains, grains.identity[place]), fmt::format("wall {}", w)}};
+            if (overlapsWall(contacts, grains, place, *wall))
+                return {{nameOfGrain(grains, grains.identity[place]), fmt::format("wall {}", number)}};
     }
     return {};
 }

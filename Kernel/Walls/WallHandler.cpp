@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,7 +19,7 @@ constexpr std::string_view asTheRunHadThem =
     "a scene that goes on is set up with the walls that the run had added by then; restartTime() tells "
     "the time of the file";
 
-/// A wall in the place of one that was removed: nothing touches it.
+/// Stands for all walls that were removed: nothing touches it.
 class RemovedWall final : public Wall {
 public:
     void listParts(const Vector<double>&, double, std::vector<std::uint32_t>&) const override {}
@@ -44,13 +45,14 @@ void WallHandler::add(std::unique_ptr<Wall> wall) {
     if (keepsForces) wall->keepForcesFromNowOn();
     // It may be a copy of a wall that another scene repeats.
     if (auto* const repeated = dynamic_cast<RepeatedWall*>(wall.get())) repeated->repeat({0, 0, 0});
-    walls.push_back(std::move(wall));
-    ++changes;
+    existing.push_back({walls.size(), std::move(wall)});
+    walls.push_back(existing.back().object.get());
+    areOthers = true;
 }
 
 void WallHandler::keepForces() {
     keepsForces = true;
-    for (const auto& wall : walls) wall->keepForcesFromNowOn();
+    for (const PresentWall& wall : existing) wall.object->keepForcesFromNowOn();
 }
 
 void WallHandler::refuseNumber(std::size_t number) const {
@@ -62,34 +64,46 @@ void WallHandler::refuseNumber(std::size_t number) const {
 void WallHandler::removeObject(std::size_t number) {
     if (number >= walls.size() || isRemoved(number)) refuseNumber(number);
     if (beforeRemoval) beforeRemoval(static_cast<int>(number));
-    walls[number] = std::make_unique<RemovedWall>();
-    ++changes;
+    remove(number);
+}
+
+void WallHandler::remove(std::size_t number) {
+    walls[number] = standIn();
+    existing.erase(std::ranges::lower_bound(existing, number, {}, &PresentWall::number));
+    areOthers = true;
+}
+
+Wall* WallHandler::standIn() {
+    if (!removed) removed = std::make_unique<RemovedWall>();
+    return removed.get();
 }
 
 void WallHandler::clear() {
     if (beforeRemoval)
-        for (std::size_t w = 0; w < walls.size(); ++w) beforeRemoval(static_cast<int>(w));
+        for (const PresentWall& wall : existing) beforeRemoval(static_cast<int>(wall.number));
     walls.clear();
+    existing.clear();
     knownWalls = 0;
-    ++changes;
+    areOthers = true;
 }
 
 bool WallHandler::hasChanges() const {
-    return changes != knownChanges ||
-           std::ranges::any_of(walls,
-                               [](const auto& wall) {
-                                   return (wall->drive() && !wall->drive()->isChecked) ||
-                                          (wall->body() && !wall->body()->isChecked);
+    return areOthers ||
+           std::ranges::any_of(existing,
+                               [](const PresentWall& wall) {
+                                   const PlaneDrive* const drive = wall.object->drive();
+                                   const WallBody* const body = wall.object->body();
+                                   return (drive && !drive->isChecked) || (body && !body->isChecked);
                                }) ||
-           !std::ranges::equal(walls, knownSpecies, {},
-                               [](const auto& wall) { return wall->getSpeciesIndex(); });
+           !std::ranges::equal(existing, knownSpecies, {},
+                               [](const PresentWall& wall) { return wall.object->getSpeciesIndex(); });
 }
 
 void WallHandler::changesAreKnown() {
-    knownChanges = changes;
+    areOthers = false;
     knownWalls = walls.size();
     knownSpecies.clear();
-    for (const auto& wall : walls) {
+    for (const auto& [number, wall] : existing) {
         knownSpecies.push_back(wall->getSpeciesIndex());
         if (PlaneDrive* const drive = wall->drive()) drive->isChecked = true;
         if (WallBody* const body = wall->body()) body->isChecked = true;
@@ -99,28 +113,55 @@ void WallHandler::changesAreKnown() {
 double WallHandler::moveTo(double time) {
     now = time;
     double farthest = 0;
-    for (const auto& wall : walls) farthest = std::max(farthest, wall->moveTo(time));
+    for (const PresentWall& wall : existing) farthest = std::max(farthest, wall.object->moveTo(time));
     return farthest;
 }
 
 void WallHandler::visitState(StateArchive& archive) {
     std::size_t count = walls.size();
     archive.value("count", count);
-    for (std::size_t w = 0; archive.isReading() && w < count; ++w) takeRemoval(archive, w);
-    archive.requireSame(count == walls.size(), "count", std::to_string(count), std::to_string(walls.size()),
-                        {}, asTheRunHadThem);
+    const std::size_t removals = visitRemovals(archive, count);
+    const auto requireSame = [&](std::string_view what, std::size_t kept, std::size_t present) {
+        archive.requireSame(kept == present, what, std::to_string(kept), std::to_string(present), {},
+                            asTheRunHadThem);
+    };
+    requireSame("count", count, walls.size());
+    requireSame("removed", removals, walls.size() - existing.size());
     archive.value("time", now);
     archive.require(!std::isinf(now), "time", "is not finite");
-    for (std::size_t w = 0; w < walls.size(); ++w)
-        archive.group(std::to_string(w), [&] { walls[w]->visitState(archive); });
+    for (const PresentWall& wall : existing)
+        archive.group(std::to_string(wall.number), [&] { wall.object->visitState(archive); });
 }
 
-void WallHandler::takeRemoval(StateArchive& archive, std::size_t number) {
-    int species = -1;
-    archive.group(std::to_string(number), [&] { archive.value("species", species); });
-    if (species >= 0) return;
-    if (number == walls.size()) walls.push_back(nullptr);
-    if (number < walls.size()) walls[number] = std::make_unique<RemovedWall>();
+/// A file of an earlier version has removed walls among the others, with the species -1.
+static std::vector<std::uint32_t> withoutSpecies(StateArchive& archive, std::size_t count) {
+    std::vector<std::uint32_t> numbers;
+    for (std::uint32_t w = 0; w < count; ++w) {
+        int species = -1;
+        archive.group(std::to_string(w), [&] { archive.value("species", species); });
+        if (species < 0) numbers.push_back(w);
+    }
+    return numbers;
+}
+
+std::size_t WallHandler::visitRemovals(StateArchive& archive, std::size_t count) {
+    std::vector<std::uint32_t> numbers;
+    for (std::uint32_t w = 0; w < walls.size(); ++w)
+        if (isRemoved(w)) numbers.push_back(w);
+    if (archive.isReading() ? archive.holds("removed") : !numbers.empty())
+        archive.column<std::uint32_t>("removed", numbers);
+    else if (archive.isReading()) numbers = withoutSpecies(archive, count);
+    archive.require(std::ranges::adjacent_find(numbers, std::ranges::greater_equal{}) == numbers.end() &&
+                        (numbers.empty() || numbers.back() < count),
+                    "removed", "has not the numbers of walls in their order");
+    if (archive.isReading())
+        for (const std::uint32_t number : numbers) takeRemoval(number);
+    return numbers.size();
+}
+
+void WallHandler::takeRemoval(std::size_t number) {
+    if (number == walls.size()) walls.push_back(standIn());
+    else if (number < walls.size() && !isRemoved(number)) remove(number);
 }
 
 }  // namespace pendular

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -12,10 +13,17 @@
 
 namespace pendular {
 
+/// A wall that is there, with its number.
+struct PresentWall {
+    std::size_t number;
+    std::unique_ptr<Wall> object;
+};
+
 /// The walls of a scene, by their numbers in the order of adding. Walls may be added and removed during a
-/// run; numbers stay. A restart file does not hold shapes: the scene that goes on is set up with all walls
-/// that the run had when it was written (restartTime() of the scene tells when that was), and removes those
-/// that the run had removed by itself.
+/// run; numbers stay. Of a removed wall only a pointer is left, and loops over present() skip it. A restart
+/// file does not hold shapes: the scene that goes on is set up with all walls that the run had when it was
+/// written (restartTime() of the scene tells when that was), and removes those that the run had removed by
+/// itself.
 class WallHandler {
 public:
     /// Adds a copy; the pointer stays valid until the wall is removed. In a run, a wall with a motion begins
@@ -35,10 +43,14 @@ public:
     void clear();
     /// Walls that there are and have been: numbers are less than this.
     [[nodiscard]] std::size_t getSize() const { return walls.size(); }
+    /// A wall that was removed is one that nothing touches, whose isRemoved() is true.
     [[nodiscard]] Wall& getObject(std::size_t number) const {
         if (number >= walls.size()) refuseNumber(number);
         return *walls[number];
     }
+    /// The walls that were not removed, in the order of their numbers. Adding or removing one invalidates the
+    /// span.
+    [[nodiscard]] std::span<const PresentWall> present() const { return existing; }
     [[nodiscard]] bool isRemoved(std::size_t number) const { return getObject(number).isRemoved(); }
     /// Keeps the forces on all walls (Wall::keepForces()), and on those that are added from now on.
     void keepForces();
@@ -62,17 +74,23 @@ private:
     /// Throws InputError unless a wall can be added as it is.
     void requireComplete(const Wall& wall, bool isPlaced) const;
     void add(std::unique_ptr<Wall> wall);
+    /// Leaves the number to what stands for all removed walls.
+    void remove(std::size_t number);
     [[noreturn]] void refuseNumber(std::size_t number) const;
+    [[nodiscard]] Wall* standIn();
+    /// Returns how many there are, in the file that is read.
+    std::size_t visitRemovals(StateArchive& archive, std::size_t count);
     /// Removes a wall, or counts one, that the run of a file had removed.
-    void takeRemoval(StateArchive& archive, std::size_t number);
+    void takeRemoval(std::size_t number);
 
-    std::vector<std::unique_ptr<Wall>> walls;
+    std::vector<Wall*> walls;  // by number
     std::function<void(int)> beforeRemoval;
-    bool keepsForces = false;   // of all walls
-    std::uint64_t changes = 0;  // additions and removals
-    std::uint64_t knownChanges = 0;
+    bool keepsForces = false;       // of all walls
+    bool areOthers = false;         // walls were added or removed since changesAreKnown()
+    std::unique_ptr<Wall> removed;  // stands for all that were removed
     std::size_t knownWalls = 0;
-    std::vector<int> knownSpecies;  // of each wall
+    std::vector<PresentWall> existing;
+    std::vector<int> knownSpecies;  // of each of these
     double now = unset;             // s; not a number before the run
 };
 

@@ -18,11 +18,13 @@ public:
         : walls(wallHandler), joined(5e-4 * smallest), apart(0.25 * largest), told(walls.getSize()) {}
 
     std::vector<std::string> sentences() {
-        for (number = 0; number < walls.getSize(); ++number)
-            for (const OpenEdge& edge : walls.getObject(number).openEdges()) {
+        for (const PresentWall& wall : walls.present()) {
+            number = wall.number;
+            for (const OpenEdge& edge : wall.object->openEdges()) {
                 if (told[number] || asked > mostAsked) break;
                 look(edge);
             }
+        }
         return std::move(found);
     }
 
@@ -36,14 +38,13 @@ private:
     /// The parts within a distance (m) of a place.
     void findNear(const Vector<double>& place, double distance) {
         near.clear();
-        for (std::size_t w = 0; w < walls.getSize(); ++w) {
-            if (walls.isRemoved(w)) continue;
+        for (const auto& [w, wall] : walls.present()) {
             parts.clear();
-            walls.getObject(w).listParts(place, distance, parts);
+            wall->listParts(place, distance, parts);
             asked += 1 + parts.size();
             for (const std::uint32_t part : parts) {
                 WallPoint point;
-                walls.getObject(w).findPoints(place, distance, {&part, 1}, {&point, 1});
+                wall->findPoints(place, distance, {&part, 1}, {&point, 1});
                 if (std::abs(point.distance) < distance) near.push_back({w, part, point});
             }
         }

@@ -68,16 +68,16 @@ Polygon clipped(Polygon polygon, const std::vector<HalfSpace>& halfSpaces) {
 
 std::vector<WallSurface> surfacesOf(const WallHandler& walls, Vector<double> lowest, Vector<double> highest) {
     // The surface of a wall with ends does not depend on the sphere.
-    const auto surfaceOf = [&](std::size_t w) {
+    const auto surfaceOf = [&](const PresentWall& wall) {
         const Vector<double> middle = 0.5 * (lowest + highest);
-        return walls.getObject(w).surface({middle, norm(highest - middle)});
+        return wall.object->surface({middle, norm(highest - middle)});
     };
-    for (std::size_t w = 0; w < walls.getSize(); ++w)
-        if (const WallSurface surface = surfaceOf(w); !surface.endless)
+    for (const PresentWall& wall : walls.present())
+        if (const WallSurface surface = surfaceOf(wall); !surface.endless)
             for (const Polygon& polygon : surface.polygons)
                 for (const Vector<double>& corner : polygon) widen(lowest, highest, corner);
     std::vector<WallSurface> surfaces;
-    for (std::size_t w = 0; w < walls.getSize(); ++w) surfaces.push_back(surfaceOf(w));
+    for (const PresentWall& wall : walls.present()) surfaces.push_back(surfaceOf(wall));
     for (std::size_t w = 0; w < surfaces.size(); ++w) {
         if (!surfaces[w].endless) continue;
         std::vector<HalfSpace> sides = sidesOf(lowest, highest);

@@ -37,8 +37,13 @@ public:
     [[nodiscard]] virtual const SurfaceWear& wearOf(std::size_t polygon) const = 0;
 };
 
-/// The walls that keep their wear, by the numbers of the walls; null for those that do not.
-std::vector<WornWall*> wornWalls(const WallHandler& walls);
+struct NumberedWornWall {
+    std::size_t number;
+    WornWall* wall;
+};
+
+/// The walls that keep their wear, in the order of their numbers.
+std::vector<NumberedWornWall> wornWalls(const WallHandler& walls);
 
 /// Throws InputError where a wall keeps its wear and the scene cannot.
 /// @param withAccount the scene has an account of the energy; @param withFriction its laws have friction

@@ -11,6 +11,7 @@
 #include "Kernel/Base/InputError.h"
 #include "Kernel/PartialSlip/ElasticImpact.h"
 #include "SelfTests/Support/CsvRows.h"
+#include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/RunProgram.h"
 
 namespace pendular::partialSlipTest {
@@ -184,6 +185,20 @@ double psiAfter(const PartialSlipConditions& conditions, double psiBefore, int s
     // Angular momentum about the contact point: rim = 5/2 of the change of the velocity.
     EXPECT_NEAR(after.rim.x, 2.5 * (after.velocity.x - psiBefore * unit), 1e-12 * psiBefore * unit);
     return after.slip().x / unit;
+}
+
+// Without a restitution the body never leaves.
+TEST(PartialSlipImpact, endsWhereBodiesDoNotPart) {
+    for (const double restitution : {0.0, 1e-300}) {
+        const ElasticImpact impact{
+            .conditions = glass, .mass = 1e-5, .approach = 0.1, .restitution = restitution};
+        PartialSlipContact contact(glass, 1.001 * impact.largestOverlap(), springs);
+        const std::string sentence = support::refusal([&] {
+            (void)impact.solve({{0, 0, 0}, {0, 0, 0}, 0}, contact, 50);
+        });
+        EXPECT_TRUE(support::isOneSentence(sentence)) << sentence;
+        EXPECT_TRUE(support::contains(sentence, "ElasticImpact: restitution = ")) << sentence;
+    }
 }
 
 // From psi = 4 chi - 1 on an impact slides throughout, and its slip falls by 7 mu v: psi by 4 chi. Below, it

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include "Kernel/Species/Laws.h"
@@ -188,6 +189,114 @@ TEST(StepForError, waitsUntilALongBridgeIsDrawnOut) {
     EXPECT_FALSE(found.together);
     EXPECT_GT(found.largest, 0);
     EXPECT_LE(found.largest, 0.03);
+}
+
+/// What is found for two grains that creep: they are overdamped, or sinter.
+template <class S>
+void expectTheLimit(const char* name, const S& species, bool together) {
+    TwoGrains<S> scene(species);
+    const StepForError found = scene.stepForError(0.02, speed);
+    // Each exact collision, of four, ends after a hundred touches of 2000 steps, and the way to the touch is
+    // a few steps. (Friction makes a touch of the normal up to sqrt(7/2) times as long as the half period
+    // that is resolved.) At other angles they may part: as much again and again for other steps.
+    const std::size_t exact = 4 * 102 * 2000 * 19 / 10;
+    EXPECT_LE(found.steps, together ? exact : 3 * exact) << name;
+    EXPECT_GT(found.steps, 0u) << name;
+    EXPECT_GT(found.step, 0) << name;
+    EXPECT_LE(found.step, found.limit) << name;
+    EXPECT_EQ(found.limit, scene.stabilityLimit()) << name;
+    EXPECT_EQ(found.known, !together) << name;
+    EXPECT_EQ(found.together, together) << name;
+    ASSERT_TRUE(found.creeping) << name;
+    EXPECT_FALSE(found.creeping->atWall) << name;
+    EXPECT_TRUE(contains(found.text(), "species 0 with species 0 creep")) << found.text();
+    EXPECT_EQ(contains(found.text(), "error is not known"), together) << found.text();
+}
+
+// Bodies that neither part nor are drawn back have no end of their collision: these took minutes, or for
+// ever.
+TEST(HeavyStepForError, endsWhereBodiesCreep) {
+    HertzianViscoelasticMindlinSpecies dashpots = hertz();
+    dashpots.setDissipation(5 * std::sqrt(5.0));  // of which sqrt(5) is critical; they part at 75 degrees
+    expectTheLimit("Hertz, 5 times critical", dashpots, false);
+
+    LinearViscoelasticSpecies springs = linear();
+    springs.setDissipation(3 * std::sqrt(2 * 1e4 * massOfGrain));  // of which the root is critical
+    expectTheLimit("linear, 3 times critical", springs, false);
+
+    Species<Sinter, NoFriction, NoAdhesion> sinter;
+    sinter.setDensity(density);
+    sinter.setStiffnessAndRestitutionCoefficient(1e3, restitution, massOfGrain);
+    sinter.setUnloadingStiffnessMax(5e3), sinter.setCohesionStiffness(1e3);
+    sinter.setPenetrationDepthMax(0.1);
+    sinter.setSinterAdhesion(0.1), sinter.setSinterRate(100);
+    sinter.setSinterType(SinterType::GrainBoundaryDiffusion);
+    expectTheLimit("Sinter", sinter, true);
+
+    HertzianViscoelasticParhamiMcMeekingSinterSpecies necks;
+    necks.setDensity(density);
+    necks.setEffectiveElasticModulus(5e6), necks.setDissipation(0.5);
+    necks.setAdhesionCoefficient(1), necks.setViscosityCoefficient(1e16);
+    necks.setSlidingViscosityCoefficient(1e12);
+    expectTheLimit("ParhamiMcMeekingSinter", necks, true);
+}
+
+// At a wall, and in the log: setStepFor() takes the step.
+TEST(HeavyStepForError, setsTheLimitWhereBodiesCreepAtAWall) {
+    HertzianViscoelasticMindlinSpecies dashpots = hertz();
+    dashpots.setDissipation(20 * std::sqrt(5.0));
+    FewGrains<HertzianViscoelasticMindlinSpecies> scene(dashpots, {{.position = {0, 0, 1.1 * radius}}}, 1e-7,
+                                                        {{{0, 0, -1}, {0, 0, 0}}});
+    scene.setQuiet();
+    scene.setStepFor(0.1, 1e-3);
+    EXPECT_LE(scene.getTimeStep(), scene.stabilityLimit());
+    EXPECT_FALSE(scene.acceptsUnstableTimeStep());
+    ASSERT_TRUE(scene.getStepForError() && scene.getStepForError()->creeping);
+}
+
+/// Two grains of a soft species and two of one that is 1e7 times as stiff.
+struct SoftAndStiff : Simulation<LinearViscoelasticSpecies> {
+    static constexpr double softest = 1, stiffest = 1e7;  // N/m
+    /// @param dissipationOf (N/m) kg/s
+    explicit SoftAndStiff(const std::function<double(double)>& dissipationOf) {
+        setQuiet();
+        for (const double stiffness : {softest, stiffest}) {
+            LinearViscoelasticSpecies species;
+            species.setDensity(density);
+            species.setStiffness(stiffness);
+            species.setDissipation(dissipationOf(stiffness));
+            const auto* added = speciesHandler.copyAndAddObject(species);
+            for (const double x : {0.0, 3 * radius}) {
+                SphericalParticle grain(added);
+                grain.setRadius(radius);
+                grain.setPosition({x, 0, stiffness > softest ? 3 * radius : 0});
+                particleHandler.copyAndAddObject(grain);
+            }
+        }
+    }
+};
+
+// A soft pair that a step of a stiff one resolves a thousand times and more: it was refused as one that needs
+// more steps than that.
+TEST(StepForError, takesTheStepOfTheStiffestPair) {
+    SoftAndStiff scene([](double) { return 1e-4; });
+    const StepForError found = scene.stepForError(0.05, 0.01);
+    EXPECT_TRUE(found.known);
+    EXPECT_LE(found.largest, 0.05);
+    // pi sqrt(m / 2 / k) of the stiff pair, in five steps at least.
+    EXPECT_LE(found.step, std::numbers::pi * std::sqrt(massOfGrain / 2 / SoftAndStiff::stiffest) / 5);
+}
+
+// Species mix to soft springs beside the stiff one's dashpots, some 1000 times critical: no number of steps
+// in a period of the springs resolves them.
+TEST(StepForError, takesTheRelaxationTimeOfBodiesThatCreep) {
+    SoftAndStiff scene([](double stiffness) { return std::sqrt(0.1 * stiffness * massOfGrain); });
+    const StepForError found = scene.stepForError(0.05, 0.01);
+    ASSERT_TRUE(found.creeping);
+    EXPECT_EQ(found.creeping->species1, 0u);
+    EXPECT_EQ(found.creeping->species2, 1u);
+    EXPECT_LE(found.step, found.limit);
+    EXPECT_LT(found.steps, 20'000'000u);
 }
 
 /// Two clumps of two spheres that overlap, which meet at one contact.

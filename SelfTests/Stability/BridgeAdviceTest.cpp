@@ -41,6 +41,12 @@ std::vector<scenes::PlaneAt> floorIf(bool wall) {
     return {{{0, 0, -1}, {0, 0, 0}}};
 }
 
+TEST(BridgeAdvice, looksAtNoWallThatWasRemoved) {
+    FewGrains<Wet> scene(wet(), threeGrains, 1e-6, floorIf(true));
+    scene.wallHandler.removeObject(0);
+    for (const BridgeCase& bridge : bridgesOf(scene, 200)) EXPECT_LT(bridge.bodies.radius2, infinity);
+}
+
 TEST(BridgeAdvice, looksAtTheBridgesOfTheScene) {
     for (const bool wall : {false, true}) {
         FewGrains<Wet> scene(wet(), threeGrains, 1e-6, floorIf(wall));

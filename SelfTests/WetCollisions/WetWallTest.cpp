@@ -111,6 +111,14 @@ std::vector<std::vector<std::string>> rowsOf(const std::string& file) {
     return rows;
 }
 
+// A sphere that its weight keeps on the plate never leaves it.
+TEST(WetWall, refusesASphereThatStaysOnADryPlate) {
+    WetWallCase given = glass(0.87e-3, 0, 55);
+    given.restitution = 1e-12, given.stepsPerContact = 5;
+    const std::string sentence = refusal([&] { (void)WetWallImpact(given).finish(); });
+    EXPECT_TRUE(isOneSentence(sentence) && contains(sentence, "the restitution must be larger")) << sentence;
+}
+
 TEST(HeavyWetWall, followsAllNormalCollisionsOfTheReferenceData) {
     const std::string file = "wet/given_wall_normal.csv";
     if (!support::hasSharedData(file)) GTEST_SKIP() << support::withoutSharedData(file);

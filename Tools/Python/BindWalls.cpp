@@ -364,9 +364,8 @@ void bindWalls(py::module_& module, SceneClass& scene) {
             "walls",
             [](PythonScene& s) {
                 std::vector<WallHandle> all;
-                const WallHandler& walls = s.scene().wallHandler;
-                for (std::size_t number = 0; number < walls.getSize(); ++number)
-                    if (!walls.isRemoved(number)) all.emplace_back(s, number);
+                for (const PresentWall& wall : s.scene().wallHandler.present())
+                    all.emplace_back(s, wall.number);
                 return all;
             },
             "All walls that there are, in the order of their numbers.")
