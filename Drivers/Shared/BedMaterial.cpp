@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "Kernel/Particles/SphericalParticle.h"
+#include "Kernel/Species/Friction/CombinedLaws.h"
 #include "Kernel/Species/Friction/Friction.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Friction/MindlinRollingTorsion.h"
@@ -15,8 +16,10 @@ namespace pendular::scenes {
 
 /// Of rolling or torsion, in R*: what is n^2 times as stiff and has n times the limit with the same numbers.
 static double leverOf(AnySpecies& s, std::string_view motion) {
-    const bool isWide = s.find<Friction>() || (motion == "torsion" && s.find<MindlinRollingTorsion>());
-    return isWide ? 2 : 1;
+    const bool isWideTorsion = s.find<MindlinRollingTorsion>() ||
+                               s.find<MindlinIncrementalRollingTorsion>() ||
+                               s.find<MindlinPartialSlipRollingTorsion>();
+    return s.find<Friction>() || (motion == "torsion" && isWideTorsion) ? 2 : 1;
 }
 
 void BedMaterial::set(AnySpecies& s) const {

@@ -89,6 +89,20 @@ std::vector<std::string_view> registeredSpecies() {
     return names;
 }
 
+bool isSpeciesOfTheKernel(std::string_view name) {
+    const std::string wanted = canonicalLawName(name);
+    const std::vector<std::string_view> frictions = lawNames<FrictionLaws>(""),
+                                        adhesions = lawNames<AdhesionLaws>("");
+    for (const std::string_view normal : lawNames<NormalLaws>(""))
+        for (const std::string_view friction : frictions) {
+            const std::string beginning = fmt::format("{}{}", normal, friction);
+            if (!wanted.starts_with(beginning)) continue;
+            for (const std::string_view adhesion : adhesions)
+                if (wanted == fmt::format("{}{}{}", beginning, adhesion, speciesSuffix)) return true;
+        }
+    return false;
+}
+
 SpeciesType speciesTypeNamed(std::string_view name) {
     const std::string wanted = canonicalLawName(name);
     std::vector<std::string_view> names;
@@ -96,6 +110,11 @@ SpeciesType speciesTypeNamed(std::string_view name) {
         if (type.name == wanted) return type;
         names.push_back(type.name);
     }
+    if (isSpeciesOfTheKernel(wanted))
+        throw InputError(fmt::format(
+            "{} is a species of Pendular, but it is not compiled into this program; register it by "
+            "registerSpecies<Type>(), or load a library that does by loadSpeciesLibrary().",
+            wanted));
     unknownName("instantiated species", name, names);
 }
 

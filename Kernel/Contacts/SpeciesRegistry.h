@@ -76,8 +76,11 @@ void loadSpeciesLibrary(const std::filesystem::path& library);
 /// The names of those that were registered, in this order.
 [[nodiscard]] std::vector<std::string_view> registeredSpecies();
 
-/// The type with this name among instantiatedSpecies() and registeredSpecies(). Throws InputError, with the
-/// nearest names.
+/// Whether laws of the kernel make a species type of this name, compiled into the program or not.
+[[nodiscard]] bool isSpeciesOfTheKernel(std::string_view name);
+
+/// The type with this name among instantiatedSpecies() and registeredSpecies(). Throws InputError: that it is
+/// not compiled in, and how to get it, or with the nearest names.
 [[nodiscard]] SpeciesType speciesTypeNamed(std::string_view name);
 
 }  // namespace pendular

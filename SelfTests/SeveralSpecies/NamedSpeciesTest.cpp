@@ -1,9 +1,11 @@
 // Species that are chosen by name at run time, and what is refused of scenes of several types.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Contacts/SpeciesRegistry.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Laws.h"
 #include "SelfTests/Scenes/SettlingBox.h"
@@ -112,6 +114,48 @@ TEST(NamedSpecies, everyInstantiatedOneCanBeAdded) {
         EXPECT_EQ(scene.speciesHandler.addByName(name)->getName(), name);
     EXPECT_EQ(scene.speciesHandler.getSize(), instantiatedSpecies().size());
     EXPECT_EQ(scene.speciesHandler.getObject(3)->getIndex(), 3);
+}
+
+/// The laws that the page recommends; with the bridges that it recommends, too.
+TEST(NamedSpecies, theRecommendedOnesAreInstantiated) {
+    Simulation<> scene;
+    for (const std::string_view adhesion : {"", "LiquidBridgeBagheri", "LiquidBridgeYoungLaplace"})
+        EXPECT_EQ(refusal([&] {
+                      scene.speciesHandler.addByName(
+                          fmt::format("HertzianViscoelasticMindlinIncremental{}Species", adhesion));
+                  }),
+                  "");
+}
+
+/// A species of the kernel that is not compiled in is not unknown.
+TEST(NamedSpecies, whatIsNotCompiledInIsRefusedWithTheWayToGetIt) {
+    Simulation<> scene;
+    scene.speciesHandler.addByName(Linear::name);
+    for (const std::string name : {"HertzianViscoelasticMindlinPartialSlipSpecies",
+                                   "HertzianBSHPViscoelasticSlidingFrictionJKRSpecies",
+                                   "SinterMindlinIncrementalRollingTorsionDMTSpecies"}) {
+        EXPECT_TRUE(isSpeciesOfTheKernel(name));
+        const std::vector<std::string> words{name, "is not compiled into this program",
+                                             "registerSpecies<Type>()", "loadSpeciesLibrary()"};
+        for (const std::string& text : {refusal([&] { scene.speciesHandler.addByName(name); }), refusal([&] {
+                                            scene.speciesHandler.setPairTypeByName(0, 0, name);
+                                        })}) {
+            EXPECT_TRUE(isOneSentence(text));
+            for (const std::string_view word : words) EXPECT_TRUE(contains(text, word));
+        }
+    }
+    // As MercuryDPM spells it.
+    EXPECT_TRUE(contains(refusal([&] {
+                             scene.speciesHandler.addByName(
+                                 "LinearPlasticViscoelasticLiquidBridgeWilletSpecies");
+                         }),
+                         "LinearPlasticViscoelasticLiquidBridgeWillettSpecies is a species of Pendular"));
+    for (const std::string_view name :
+         {"", "Species", "MindlinSpecies", "HertzianViscoelasticMindlinPartialSlip",
+          "HertzianViscoelasticMindlinMindlinSpecies",
+          "HertzianViscoelasticLiquidBridgeBagheriMindlinSpecies"})
+        EXPECT_FALSE(isSpeciesOfTheKernel(name)) << name;
+    for (const std::string_view name : instantiatedSpecies()) EXPECT_TRUE(isSpeciesOfTheKernel(name)) << name;
 }
 
 TEST(NamedSpecies, wrongNamesAndValuesAreRefused) {

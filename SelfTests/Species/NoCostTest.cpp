@@ -44,6 +44,8 @@ inline constexpr std::size_t normalHistoryColumns = layoutOf<S>.normalHistory;
 static_assert(normalHistoryColumns<RoughAndWet> == 0 && normalHistoryColumns<Plastic> == 1);
 static_assert(historyColumns<Plastic> == 0 && historyColumns<Rolling> == 8);
 static_assert(historyColumns<Species<LinearViscoelastic, SlidingFriction>> == 4);
+static_assert(historyColumns<Species<HertzianViscoelastic, MindlinIncremental>> == 4);
+static_assert(historyColumns<Species<HertzianViscoelastic, MindlinIncrementalRollingTorsion>> == 9);
 static_assert(!RoughAndWet::hasContactTorque && !Plastic::hasContactTorque && Rolling::hasContactTorque);
 static_assert(!layoutOf<Plastic>.hasTorque && layoutOf<Rolling>.hasTorque);
 static_assert(bytesPerContact<Rolling> == bytesPerContact<Rough> + sizeof(TorqueRecord) + 5 * sizeof(double));

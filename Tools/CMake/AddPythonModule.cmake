@@ -1,9 +1,11 @@
 # The Python package pendular, of Tools/Python/: in the build folder it is Python/pendular, so that
 # PYTHONPATH=build/release/Python finds it.
 
-set(PENDULAR_PYTHON_SPECIES SinterMindlinSpecies HertzianSinterMindlinSpecies LinearViscoelasticSlidingRollingTorsionSpecies
-    LinearPlasticViscoelasticSlidingRollingTorsionSpecies CACHE STRING
-    "Species that the Python module has besides the popular ones, by their names (a list): 10 s each to compile")
+# Besides the popular ones.
+set(pythonSpecies SinterMindlinSpecies HertzianSinterMindlinSpecies LinearViscoelasticSlidingRollingTorsionSpecies
+    LinearPlasticViscoelasticSlidingRollingTorsionSpecies HertzianViscoelasticMindlinIncrementalRollingTorsionSpecies)
+set(PENDULAR_PYTHON_SPECIES "" CACHE STRING
+    "Further species of the Python module, by their names (a list): 10 s each to compile")
 set(PENDULAR_PYTHON_SHAPED_SPECIES HertzianViscoelasticMindlinSpecies LinearViscoelasticSlidingFrictionSpecies CACHE STRING
     "Species of superquadrics and blocks in the Python module (a list): 10 s each to compile")
 
@@ -11,10 +13,15 @@ set(pythonFolder "${PROJECT_SOURCE_DIR}/Tools/Python")
 set(pythonPackage "${buildOfAllLevels}/Python/pendular")
 set(pythonKernelFolder "${pythonPackage}/${levelFolder}")
 set(pythonGenerated "${PROJECT_BINARY_DIR}/Generated/Python")
-set(pythonSpecies "${PENDULAR_PYTHON_SPECIES}")
+foreach(list IN ITEMS PENDULAR_PYTHON_SPECIES PENDULAR_PYTHON_SHAPED_SPECIES)  # their names are as those in Python, too
+    list(TRANSFORM ${list} REPLACE "Species$" "" OUTPUT_VARIABLE ${list}Named)
+    list(TRANSFORM ${list}Named APPEND "Species")
+endforeach()
+list(APPEND pythonSpecies ${PENDULAR_PYTHON_SPECIESNamed})
+list(REMOVE_DUPLICATES pythonSpecies)
 list(REMOVE_ITEM pythonSpecies ${PENDULAR_POPULAR_SPECIES})
 pendular_instantiate_species("${pythonGenerated}" PythonSpecies "${pythonSpecies}" pythonSpeciesSources)
-list(JOIN PENDULAR_PYTHON_SHAPED_SPECIES ", " shapedSpecies)
+list(JOIN PENDULAR_PYTHON_SHAPED_SPECIESNamed ", " shapedSpecies)
 file(CONFIGURE OUTPUT "${pythonGenerated}/ShapedSpecies.h" @ONLY CONTENT [[
 #pragma once
 

@@ -89,6 +89,9 @@ set(PENDULAR_POPULAR_SPECIES
     HertzianViscoelasticSpecies
     HertzianViscoelasticMindlinSpecies
     HertzianViscoelasticMindlinRollingTorsionSpecies
+    HertzianViscoelasticMindlinIncrementalSpecies
+    HertzianViscoelasticMindlinIncrementalLiquidBridgeBagheriSpecies
+    HertzianViscoelasticMindlinIncrementalLiquidBridgeYoungLaplaceSpecies
     HertzianViscoelasticLiquidBridgeBagheriSpecies
     HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies
     HertzianViscoelasticLiquidBridgeWillettSpecies
@@ -123,7 +126,8 @@ set(PENDULAR_SPECIES_OF_TESTS
     HertzianSinterMindlinSpecies
     SinterSpecies
     HertzianViscoelasticParhamiMcMeekingSinterSpecies
-    HertzianViscoelasticMindlinIncrementalLiquidBridgeBagheriSpecies
+    HertzianViscoelasticMindlinIncrementalRollingTorsionLiquidBridgeBagheriSpecies
+    HertzianViscoelasticMindlinPartialSlipRollingTorsionLiquidBridgeBagheriSpecies
     HertzianViscoelasticMindlinPartialSlipLiquidBridgeBagheriSpecies
     HertzianViscoelasticMindlinRollingTorsionLiquidBridgeBagheriSpecies
     HertzianViscoelasticMindlinSecantLiquidBridgeBagheriSpecies

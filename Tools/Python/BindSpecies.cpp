@@ -297,7 +297,7 @@ void bindSpecies(py::module_& module, SceneClass& scene) {
 
     module.def("species", &knownSpecies,
                "The names of all species that are compiled into this module. Others: a library for "
-               "load_species(), or a build with -DPENDULAR_PYTHON_SPECIES=NAMES.");
+               "load_species(), or a build with their names in -DPENDULAR_PYTHON_SPECIES.");
     module.def(
         "fields", [](const std::string& type) { return describe(makeScene()->addSpecies(typeNamed(type))); },
         py::arg("type"),

@@ -80,6 +80,10 @@ std::string inPython(std::string sentence) {
            "file has 1, 0 where it has 0",
            "call keep_energy_ledger() where the file has 1 alone"},
           {"intersectionOfHalfSpaces:", "add_solid():"},
+          {"this program; register it by registerSpecies<Type>(), or load a library that does by "
+           "loadSpeciesLibrary()",
+           "this module; build the module with its name in -DPENDULAR_PYTHON_SPECIES, or load a library that "
+           "has it by load_species() (Tools/Python/README.md)"},
           {"instantiated species", "species"}})
         for (std::size_t at = sentence.find(name); at != std::string::npos; at = sentence.find(name))
             sentence.replace(at, std::string_view(name).size(), known);

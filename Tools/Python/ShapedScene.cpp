@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "Kernel/Contacts/SpeciesRegistry.h"
 #include "Kernel/Simulation/SuperquadricSimulation.h"
 #include "Kernel/Species/LawNames.h"
 #include "Kernel/Species/SpeciesInScene.h"
@@ -90,11 +91,26 @@ std::vector<std::string_view> shapedSpecies() {
     return names;
 }
 
+/// With the list that the build takes: what it has already, and this one.
+[[noreturn]] static void refuseUncompiled(std::string_view type) {
+    std::vector<std::string_view> names = shapedSpecies();
+    names.push_back(type);
+    std::string list;
+    for (const std::string_view name : names)
+        list.append(list.empty() ? "" : ";").append(name.substr(0, name.size() - speciesSuffix.size()));
+    throw InputError(
+        fmt::format("{} is a species of Pendular, but superquadrics of it are not compiled into this module; "
+                    "build the module with -DPENDULAR_PYTHON_SHAPED_SPECIES=\"{}\" "
+                    "(Tools/Python/README.md).",
+                    type, list));
+}
+
 std::shared_ptr<PythonScene> makeShapedScene(std::string_view type) {
     std::shared_ptr<PythonScene> made;
     ShapedSpecies::forEach([&]<class S>() {
         if (canonicalLawName(type) == S::name) made = ofThisProcess(std::make_unique<ShapedScene<S>>());
     });
+    if (!made && isSpeciesOfTheKernel(type)) refuseUncompiled(type);
     if (!made) unknownName("species of superquadrics", type, shapedSpecies());
     return made;
 }

@@ -2,13 +2,14 @@
 
 #include "Kernel/Species/Friction/Shared/LinearSpring.h"
 #include "Kernel/Species/Friction/Shared/RollingTorsionFriction.h"
+#include "Kernel/Species/Friction/Shared/StickSlipFriction.h"
 
 namespace pendular {
 
 /// Linear springs against sliding, rolling and torsion as MercuryDPM's species of this name have them:
 /// rolling and torsion have the lever 2 R* (FrictionInteraction.cc), so that its programs' numbers give its
 /// torques. SlidingRollingTorsion has the lever R*: a quarter of the stiffness and half the limit.
-struct Friction : RollingTorsionFriction<Friction, LinearSpring> {
+struct Friction : RollingTorsionFriction<Friction, StickSlipFriction<Friction, LinearSpring>> {
     static constexpr std::string_view name = "Friction";
     static constexpr std::string_view summary =
         "linear springs with dashpots and sliders against sliding, rolling and torsion, lever 2 R* "

@@ -2,6 +2,7 @@
 
 #include "Kernel/Species/Friction/Shared/MindlinSpring.h"
 #include "Kernel/Species/Friction/Shared/RollingTorsionFriction.h"
+#include "Kernel/Species/Friction/Shared/StickSlipFriction.h"
 
 namespace pendular {
 
@@ -10,7 +11,8 @@ namespace pendular {
 /// lever is R* for rolling (Thornton et al. 2023, equation 4.9) and 2 R* for torsion, and the springs have
 /// Mindlin's stiffness 8 G* a, unless they are given one. Its torsion spring, which is added to itself in
 /// each step there, is that of Luding here.
-struct MindlinRollingTorsion : RollingTorsionFriction<MindlinRollingTorsion, MindlinSpring> {
+struct MindlinRollingTorsion
+    : RollingTorsionFriction<MindlinRollingTorsion, StickSlipFriction<MindlinRollingTorsion, MindlinSpring>> {
     static constexpr std::string_view name = "MindlinRollingTorsion";
     static constexpr std::string_view summary =
         "tangential spring after Mindlin, with springs against rolling (lever R*) and torsion (lever 2 R*)";
@@ -19,7 +21,6 @@ struct MindlinRollingTorsion : RollingTorsionFriction<MindlinRollingTorsion, Min
         "while a spring of Mindlin's stiffness is stretched gains energy, as with Mindlin";
     static constexpr RotationLever leverOfRolling = RotationLever::EffectiveRadius,
                                    leverOfTorsion = RotationLever::EffectiveDiameter;
-    static constexpr bool rotatesAsItSlides = true;
 };
 
 }  // namespace pendular

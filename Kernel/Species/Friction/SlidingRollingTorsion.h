@@ -2,12 +2,14 @@
 
 #include "Kernel/Species/Friction/Shared/LinearSpring.h"
 #include "Kernel/Species/Friction/Shared/RollingTorsionFriction.h"
+#include "Kernel/Species/Friction/Shared/StickSlipFriction.h"
 
 namespace pendular {
 
 /// Linear springs against sliding, rolling and torsion, the latter two with the lever R*: see LinearSpring
 /// and RollingTorsionFriction. Friction is the same with the lever of MercuryDPM.
-struct SlidingRollingTorsion : RollingTorsionFriction<SlidingRollingTorsion, LinearSpring> {
+struct SlidingRollingTorsion
+    : RollingTorsionFriction<SlidingRollingTorsion, StickSlipFriction<SlidingRollingTorsion, LinearSpring>> {
     static constexpr std::string_view name = "SlidingRollingTorsion";
     static constexpr std::string_view summary =
         "linear springs with dashpots and sliders against sliding, rolling and torsion (Luding), lever R*";

@@ -1,13 +1,17 @@
-/// Reduced profiles of a few springs: MindlinIncremental (one), MindlinPartialSlip (three).
+/// Reduced profiles of a few springs: MindlinIncremental (one), MindlinPartialSlip (three); and rolling and
+/// torsion beside them.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "Kernel/Species/Friction/CombinedLaws.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Friction/MindlinIncremental.h"
 #include "Kernel/Species/Friction/MindlinPartialSlip.h"
+#include "Kernel/Species/Friction/MindlinRollingTorsion.h"
 #include "Kernel/Species/Friction/MindlinSecant.h"
+#include "Kernel/Species/Friction/SlidingFriction.h"
 #include "SelfTests/Support/Draw.h"
 
 namespace pendular::reducedProfileTest {
@@ -224,6 +228,149 @@ TEST(ReducedProfile, ofOneSpringIsTheSpringAndSlider) {
         EXPECT_LE(norm(springs.each[0].displacement - other), 1e-14 * norm(stretch));
         EXPECT_EQ(one.slides, expected.slides);
     }
+}
+
+struct Torques {
+    double rolling, torsion;  // N, over R*, against the turn
+};
+
+/// A contact that is turned by hand, about an axis in its plane (rolling) and about its normal (torsion),
+/// without dashpots and response.
+template <class Law>
+struct Turned {
+    explicit Turned(double coefficient) {
+        law.setEffectiveShearModulus(shearModulus);
+        law.setSlidingDissipation(0);
+        law.setRollingFrictionCoefficient(coefficient);
+        law.setTorsionFrictionCoefficient(coefficient);
+    }
+    /// @param way m, R* times the turn, about both axes
+    Torques turn(double depth, double way) {
+        const Slip<double> turning{.velocity = {way, 0, way}, .timeBefore = 1, .timeAfter = 0};
+        const Contact<double> contact(depth, radius, 1e-6);
+        const auto forces =
+            Law::rotate(law.prepare(AnyNormalLaw{}), contact, load, {0, 0, 1}, turning, springs);
+        return {-forces.rolling.force.x, -forces.torsion.force.z};
+    }
+
+    Law law;
+    typename Law::template History<double> springs{};
+};
+
+/// What the two springs gain (J) where a contact is turned by a way (m) at an overlap (m), pressed deeper,
+/// turned back and let go.
+template <class Law>
+Torques gainedByPressingATurnedContact(double shallow, double deep, double way) {
+    Turned<Law> contact(1e6);  // nothing slides
+    const int steps = 100;
+    Torques work{};  // of the trapezoidal rule, exact for a spring
+    const auto turnBy = [&](double depth, double whole) {
+        Torques before = contact.turn(depth, 0);
+        for (int k = 0; k < steps; ++k) {
+            const Torques after = contact.turn(depth, whole / steps);
+            work.rolling += 0.5 * (before.rolling + after.rolling) * whole / steps;
+            work.torsion += 0.5 * (before.torsion + after.torsion) * whole / steps;
+            before = after;
+        }
+    };
+    turnBy(shallow, way);
+    const int presses = 1000;
+    for (int k = 1; k <= presses; ++k) contact.turn(shallow + (deep - shallow) * k / presses, 0);
+    turnBy(deep, -way);
+    return {-work.rolling, -work.torsion};
+}
+
+// Springs of rolling (lever R*) and torsion (2 R*, so four times as stiff) with Mindlin's stiffness k = 8 G*
+// a. Those that keep their stretch gain (k_2 - k_1) s^2 / 2, as the sliding spring above; those that keep
+// their force put in k_1 s^2 / 2 and take out (2 k_1 - k_2) s^2 / 2. 1e-11: rounding of the sums over 1000
+// steps.
+TEST(RollingTorsionOfAnyLaw, gainsNothingBesideIncrements) {
+    const double s = 1e-7;  // m
+    for (const double ratio : {1.0, 4.0, 9.0}) {
+        const double root = std::sqrt(ratio);
+        const double stored = 0.5 * 8 * shearModulus * std::sqrt(radius * overlap) * s * s;
+        const auto expect = [&](const Torques& gained, double expected) {
+            EXPECT_NEAR(gained.rolling, expected * stored, 1e-11 * root * stored);
+            EXPECT_NEAR(gained.torsion, 4 * expected * stored, 4e-11 * root * stored);
+        };
+        const double deep = ratio * overlap;
+        expect(gainedByPressingATurnedContact<MindlinRollingTorsion>(overlap, deep, s), root - 1);
+        expect(gainedByPressingATurnedContact<MindlinIncrementalRollingTorsion>(overlap, deep, s), 1 - root);
+        expect(gainedByPressingATurnedContact<MindlinPartialSlipRollingTorsion>(overlap, deep, s), 1 - root);
+    }
+}
+
+// A spring with a stiffness of its own, k, does not follow the contact: the torque stays k s.
+TEST(RollingTorsionOfAnyLaw, leavesSpringsOfAConstantStiffness) {
+    Turned<MindlinIncrementalRollingTorsion> contact(1e6);
+    const double k = 1e4, s = 1e-7;  // N/m, m
+    contact.law.setRollingStiffness(k), contact.law.setTorsionStiffness(k);
+    contact.turn(overlap, s);
+    for (const double depth : {4 * overlap, 9 * overlap, 0.25 * overlap}) {
+        const Torques now = contact.turn(depth, 0);
+        EXPECT_NEAR(now.rolling / (k * s), 1, 1e-14);
+        EXPECT_NEAR(now.torsion / (4 * k * s), 1, 1e-14);
+    }
+}
+
+/// Bit for bit: the tangential force and what the contact remembers of it are those of the law itself.
+template <class Law>
+void expectTheSameSliding() {
+    using Composed = WithRollingTorsion<Law>;
+    Draw draw(7);
+    Law alone;
+    Composed composed;
+    for (const auto& field : Law::fields())
+        alone.*field.member = composed.*field.member = field.unit == "Pa"    ? 1e9
+                                                       : field.unit == "N/m" ? 1e5
+                                                                             : field.range.lowest + 0.3;
+    composed.setRollingFrictionCoefficient(0.2), composed.setTorsionFrictionCoefficient(0.1);
+    composed.setRollingStiffness(1e4), composed.setTorsionStiffness(1e4);
+    typename Law::template History<double> springs{};
+    typename Composed::template History<double> both{};
+    int slid = 0;
+    for (int k = 0; k < 1000; ++k) {
+        const Contact<double> contact(overlap * draw.uniform(0.2, 1), radius, 1e-6);
+        const Slip<double> slip{.velocity = {draw.uniform(-1, 1), draw.uniform(-1, 1), 0},
+                                .timeBefore = 1e-7,
+                                .timeAfter = 1e-7,
+                                .response = 1e-3};
+        const double push = load * draw.uniform(0, 1);
+        const auto one = sliderForce<Law>(alone.prepare(AnyNormalLaw{}), contact, push, slip, springs);
+        const auto other = Composed::slide(composed.prepare(AnyNormalLaw{}), contact, push, slip, both);
+        Composed::rotate(composed.prepare(AnyNormalLaw{}), contact, push, {0, 0, 1}, slip, both);
+        for (const auto axis : {&Vector<double>::x, &Vector<double>::y, &Vector<double>::z}) {
+            ASSERT_EQ(one.force.*axis, other.force.*axis) << Composed::name << " " << k;
+            ASSERT_EQ(springs.slidingSpring().*axis, both.slidingSpring().*axis) << Composed::name;
+        }
+        slid += one.slides ? 1 : 0;
+    }
+    EXPECT_TRUE(slid > 100 && slid < 1000) << Composed::name << " " << slid;
+}
+
+TEST(RollingTorsionOfAnyLaw, doesNotChangeTheSliding) {
+    expectTheSameSliding<Mindlin>();
+    expectTheSameSliding<MindlinIncremental>();
+    expectTheSameSliding<MindlinPartialSlip>();
+    expectTheSameSliding<SlidingFriction>();
+}
+
+// At a contact radius that stays, the torques are those of MindlinRollingTorsion with the same numbers, bit
+// for bit, where the springs hold and where they slide.
+TEST(RollingTorsionOfAnyLaw, hasTheTorquesOfMindlinRollingTorsion) {
+    Draw draw(8);
+    Turned<MindlinRollingTorsion> one(0.1);
+    Turned<MindlinIncrementalRollingTorsion> other(0.1);
+    const double limit = 0.1 * load;  // N, of rolling
+    int slid = 0;
+    for (int k = 0; k < 1000; ++k) {
+        const double way = draw.uniform(-1, 1) * limit / (8 * shearModulus * std::sqrt(radius * overlap));
+        const Torques expected = one.turn(overlap, way), found = other.turn(overlap, way);
+        ASSERT_EQ(found.rolling, expected.rolling);
+        ASSERT_EQ(found.torsion, expected.torsion);
+        slid += std::abs(found.rolling) > 0.999 * limit ? 1 : 0;
+    }
+    EXPECT_TRUE(slid > 100 && slid < 900) << slid;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "Kernel/Motion/StabilityLimit.h"
+#include "Kernel/Species/Friction/CombinedLaws.h"
 #include "Kernel/Species/Friction/Friction.h"
 #include "Kernel/Species/Friction/MindlinRollingTorsion.h"
 #include "Kernel/Species/Friction/SlidingRollingTorsion.h"
@@ -21,6 +22,7 @@ using scenes::GrainMotion;
 using Linear = Species<LinearViscoelastic, SlidingRollingTorsion>;
 using Hertzian = Species<HertzianViscoelastic, MindlinRollingTorsion>;
 using Wide = Species<LinearViscoelastic, Friction>;  // of MercuryDPM's lever
+using Composed = Species<HertzianViscoelastic, MindlinIncrementalRollingTorsion>;
 
 /// Levers in R*: those of MercuryDPM's interactions of the same names, but for SlidingRollingTorsion.
 template <class S>
@@ -29,6 +31,8 @@ template <class S>
 inline constexpr double torsionLever = 1;
 template <>
 inline constexpr double torsionLever<Hertzian> = 2;
+template <>
+inline constexpr double torsionLever<Composed> = 2;
 template <>
 inline constexpr double rollingLever<Wide> = 2;
 template <>
@@ -80,8 +84,9 @@ struct OnPlane {
     }
     static double overlap() {
         const double hertz = 4.0 / 3 * computeEffectiveElasticModulus(1e8, 0.3) * std::sqrt(radius);
-        return std::is_same_v<S, Hertzian> ? std::pow(mass * gravity / hertz, 2.0 / 3)
-                                           : mass * gravity / normalStiffness;
+        return std::is_same_v<typename S::Normal, HertzianViscoelastic>
+                   ? std::pow(mass * gravity / hertz, 2.0 / 3)
+                   : mass * gravity / normalStiffness;
     }
     static double step() { return 2e-6; }  // s
     void run(double time) {
@@ -94,7 +99,7 @@ struct OnPlane {
 
 template <class S>
 class RollingTorsionOnPlane : public testing::Test {};
-using Materials = testing::Types<Linear, Hertzian, Wide>;
+using Materials = testing::Types<Linear, Hertzian, Wide, Composed>;
 TYPED_TEST_SUITE(RollingTorsionOnPlane, Materials);
 
 // Rolling without slip against the torque R* mu_r N, with R* = r at a wall: 7/5 m a = m g sin(alpha) -
@@ -218,11 +223,12 @@ TEST(RollingTorsion, hasMindlinsStiffnessWhereNoneIsGiven) {
     EXPECT_NEAR(stiffnessOf(species).torsion.spring / (4 * mindlin), 1, 1e-12);
 }
 
-// The ledger closes, also where the springs change with the overlap.
-TEST(RollingTorsion, closesTheLedgerWithMindlinsStiffness) {
-    Hertzian species = material<Hertzian>(0.2, 0.2);
+// The ledger closes, also where the springs change with the overlap, and where their stretch follows it.
+template <class S>
+void expectAClosedLedger() {
+    S species = material<S>(0.2, 0.2);
     species.setRollingStiffness(0), species.setTorsionStiffness(0);
-    OnPlane<Hertzian> sphere(species, 0.3, {0, 0, 50});
+    OnPlane<S> sphere(species, 0.3, {0, 0, 50});
     sphere.run(0.02);
     const EnergyLedger& ledger = sphere.scene.energyLedger();
     EXPECT_GT(ledger.rolling, 1e-10);
@@ -230,6 +236,10 @@ TEST(RollingTorsion, closesTheLedgerWithMindlinsStiffness) {
     EXPECT_NE(ledger.stiffening, 0);
     // Forces are summed in whole quanta (ForceQuantum.h), some 1e-9 of the weight here, whose work is 2e-7 J.
     EXPECT_NEAR(sphere.scene.energyUnaccountedFor(), 0, 1e-15);
+}
+TEST(RollingTorsion, closesTheLedgerWithMindlinsStiffness) {
+    expectAClosedLedger<Hertzian>();
+    expectAClosedLedger<Composed>();
 }
 
 // A coefficient without a spring would do nothing.

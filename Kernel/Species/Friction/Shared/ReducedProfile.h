@@ -31,6 +31,13 @@ struct ProfileBounds {
     }
 };
 
+/// By how much a contact radius (m) has grown, over what it has become.
+template <class T>
+[[gnu::always_inline]] inline T relativeGrowth(T before, T now) {
+    constexpr double smallest = 1e-300;  // m
+    return (now - before) / max(now, T(smallest));
+}
+
 /// What a law with a reduced profile remembers of a contact.
 template <class T, std::size_t springs, ProfileBounds<springs> profile>
 struct ProfileSprings {
@@ -56,8 +63,7 @@ struct ProfileSprings {
     /// force. With one spring that is the increment of the force with rescaling on unloading: Thornton,
     /// Cummins and Cleary (2013), Powder Technology 233, 30.
     [[gnu::always_inline]] void follow(T a) {
-        constexpr double smallest = 1e-300;  // m
-        const T change = (a - contactRadius) / max(a, T(smallest));
+        const T change = relativeGrowth(contactRadius, a);
         const T grown = max(change, T(0)), shrunk = max(-change, T(0));
         const auto before = each;
         for (std::size_t i = 0; i < springs; ++i) {
@@ -125,6 +131,13 @@ struct ReducedProfile : MindlinSpring<Law> {
     using History = ProfileSprings<T, springs, profile>;
 
     ReducedProfile() { this->springFactor = profile.factorOfWork(); }
+
+    /// Of a spring over the whole contact: the share of its stretch that is left where the contact radius (m)
+    /// has changed; see ProfileSprings::follow().
+    template <class T>
+    [[gnu::always_inline]] static T keptStretch(T before, T now) {
+        return T(1) - min(max(relativeGrowth(before, now), T(0)), T(1));
+    }
 
     template <class T>
     [[gnu::always_inline]] static SliderForce<T> slide(const typename Spring::Prepared& p,

@@ -7,7 +7,8 @@
 #include <string>
 
 #include "Kernel/Base/InputError.h"
-#include "Kernel/Species/Friction/Shared/StickSlip.h"
+#include "Kernel/Species/Friction/Shared/SpringSlider.h"
+#include "Kernel/Species/Friction/Shared/TangentialSpring.h"
 
 namespace pendular {
 
@@ -25,6 +26,12 @@ struct RollingTorsionSpring {
         rolling.move(shift - about * normal);
         torsion = torsion + about;
     }
+};
+
+/// One whose stretch follows the contact radius.
+template <class T>
+struct FollowingRotationSpring : RollingTorsionSpring<T> {
+    T contactRadius;  // m, at the last force
 };
 
 /// The lever of a law's rolling or torsion, in effective radii R* = r1 r2 / (r1 + r2), which is r at a wall.
@@ -193,21 +200,6 @@ private:
     void set(double RollingTorsion::*member, double value) {
         setField(static_cast<Law&>(*this), member, value);
     }
-};
-
-/// What a law with sliding, rolling and torsion remembers of a contact.
-template <class T>
-struct FrictionSprings {
-    StickSlipSpring<T> sliding;
-    RollingTorsionSpring<T> rotation;
-
-    [[nodiscard]] const Vector<T>& slidingSpring() const { return sliding.slidingSpring(); }
-    void turn(const FrameRotation<T>& r) {
-        sliding.turn(r);
-        rotation.turn(r);
-    }
-    void move(const Vector<T>& shift) { sliding.move(shift); }
-    void moveRotation(const Vector<T>& shift, const Vector<T>& normal) { rotation.move(shift, normal); }
 };
 
 }  // namespace pendular

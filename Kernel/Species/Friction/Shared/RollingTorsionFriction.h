@@ -1,63 +1,127 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "Kernel/Species/Friction/Shared/RollingTorsion.h"
-#include "Kernel/Species/Friction/Shared/StickSlip.h"
+#include "Kernel/Species/Setter.h"
 
 namespace pendular {
 
-/// A tangential spring (MindlinSpring or LinearSpring) with static and dynamic friction, and linear springs
-/// against rolling and torsion: see StickSlip and RollingTorsion. Law is the law derived from this.
-template <class Law, template <class> class TangentialLaw>
-struct RollingTorsionFriction : TangentialLaw<Law>, StickSlip<Law>, RollingTorsion<Law> {
-    using Spring = TangentialLaw<Law>;
+/// What a law with sliding, rolling and torsion remembers of a contact.
+template <class T, class Sliding, class Rotation>
+struct FrictionSprings {
+    Sliding sliding;
+    Rotation rotation;
 
-    static constexpr auto fields() {
-        return joinedFields<Law>(Spring::fields(), StickSlip<Law>::fields(), RollingTorsion<Law>::fields());
+    [[nodiscard]] decltype(auto) slidingSpring() const { return sliding.slidingSpring(); }
+    void turn(const FrameRotation<T>& r) {
+        sliding.turn(r);
+        rotation.turn(r);
     }
+    void move(const Vector<T>& shift) { sliding.move(shift); }
+    void moveRotation(const Vector<T>& shift, const Vector<T>& normal) { rotation.move(shift, normal); }
+};
 
-    static auto setters() { return joinedSetters<Law, Spring, StickSlip<Law>>(); }
+/// A tangential law with a stiffness that goes with the contact, which its springs of rolling and torsion
+/// take, too: fullStiffness(p, contact), N/m.
+template <class Tangential>
+concept HasFullStiffness = requires(const typename Tangential::Prepared p, const Contact<double>& contact) {
+    Tangential::fullStiffness(p, contact);
+};
+/// One whose springs keep their force, and not their stretch, where the contact closes: keptStretch(a0, a) is
+/// the share of the stretch that is left where the contact radius has become a (m).
+template <class Tangential>
+concept KeepsForce = requires {
+    Tangential::keptStretch(1.0, 1.0);
+};
+
+/// Any tangential law, and beside it linear springs against rolling and torsion: see RollingTorsion. Where
+/// these have the stiffness of the tangential law, they follow the contact radius as its springs do. Law is
+/// the law derived from this; Tangential is a friction law, or the base of one that is derived from Law.
+template <class Law, class Tangential>
+struct RollingTorsionFriction : Tangential, RollingTorsion<Law> {
+    using Rotation = RollingTorsion<Law>;
+    static constexpr bool rotatesAsItSlides = HasFullStiffness<Tangential>;
+    static constexpr bool keepsForce = rotatesAsItSlides && KeepsForce<Tangential>;
+
+    static constexpr auto fields() { return joinedFields<Law>(Tangential::fields(), Rotation::fields()); }
+
+    static auto setters() { return settersOf<Tangential>(); }
 
     template <class T>
-    using History = FrictionSprings<T>;
+    using History =
+        FrictionSprings<T, typename Tangential::template History<T>,
+                        std::conditional_t<keepsForce, FollowingRotationSpring<T>, RollingTorsionSpring<T>>>;
 
     struct Prepared {
-        typename Spring::PreparedSpring spring;
-        double staticRatio;  // mu_s / mu_d
-        typename RollingTorsion<Law>::PreparedRotation rotation;
+        typename Tangential::Prepared tangential;
+        typename Rotation::PreparedRotation rotation;
     };
     template <class Normal>
-    [[nodiscard]] Prepared prepare(const Normal&) const {
-        return {this->prepareSpring(), this->staticFrictionRatio, this->prepareRotation()};
+    [[nodiscard]] Prepared prepare(const Normal& normal) const {
+        return {Tangential::prepare(normal), this->prepareRotation()};
     }
 
     template <class T>
     [[gnu::always_inline]] static SliderForce<T> slide(const Prepared& p, const Contact<T>& contact,
                                                        T normalForce, const Slip<T>& slip,
-                                                       FrictionSprings<T>& springs) {
-        return StickSlip<Law>::slide(p.staticRatio, Spring::springStiffness(p.spring, contact),
-                                     Spring::springDamping(p.spring, contact),
-                                     p.spring.coefficient * max(normalForce, T(0)), slip, springs.sliding);
+                                                       History<T>& springs) {
+        return sliderForce<Tangential>(p.tangential, contact, normalForce, slip, springs.sliding);
+    }
+    /// On body 1 (N).
+    template <class T>
+    [[gnu::always_inline]] static Vector<T> force(const Prepared& p, const Contact<T>& contact, T normalForce,
+                                                  const Slip<T>& slip, History<T>& springs) {
+        return slide(p, contact, normalForce, slip, springs).force;
     }
     template <class T>
     [[gnu::always_inline]] static RotationForces<T> rotate(const Prepared& p, const Contact<T>& contact,
                                                            T normalForce, const Vector<T>& normal,
-                                                           const Slip<T>& turning,
-                                                           FrictionSprings<T>& springs) {
-        T sliding = 0;
-        if constexpr (Law::rotatesAsItSlides) sliding = Spring::fullStiffness(p.spring, contact);
-        return RollingTorsion<Law>::turnSprings(p.rotation, sliding, normalForce, normal, turning,
-                                                springs.rotation);
+                                                           const Slip<T>& turning, History<T>& springs) {
+        T stiffness = 0;
+        if constexpr (rotatesAsItSlides) stiffness = Tangential::fullStiffness(p.tangential, contact);
+        if constexpr (keepsForce) {
+            const auto changes = contact.contactRadius != springs.rotation.contactRadius;
+            follow(p, contact, springs.rotation);
+            RotationForces<T> forces =
+                Rotation::turnSprings(p.rotation, stiffness, normalForce, normal, turning, springs.rotation);
+            // The energy of springs that come and go is lost: the ledger counts it as slip.
+            if (p.rotation.rolling.shareOfSliding > 0) forces.rolling.slips = forces.rolling.slips | changes;
+            if (p.rotation.torsion.shareOfSliding > 0) forces.torsion.slips = forces.torsion.slips | changes;
+            return forces;
+        } else {
+            return Rotation::turnSprings(p.rotation, stiffness, normalForce, normal, turning,
+                                         springs.rotation);
+        }
     }
     template <class T>
     [[gnu::always_inline]] static Vector<T> rotationForce(const Prepared& p, const Contact<T>& contact,
                                                           T normalForce, const Vector<T>& normal,
-                                                          const Slip<T>& turning,
-                                                          FrictionSprings<T>& springs) {
+                                                          const Slip<T>& turning, History<T>& springs) {
         const RotationForces<T> forces = rotate(p, contact, normalForce, normal, turning, springs);
         return forces.rolling.force + forces.torsion.force;
     }
     static double stiffness(const Prepared& p, const Contact<double>& contact) {
-        return Spring::springStiffness(p.spring, contact);
+        return Tangential::stiffness(p.tangential, contact);
+    }
+
+    [[nodiscard]] std::optional<std::string> objection(const Bodies& bodies) const {
+        if constexpr (requires(const Tangential law) { law.objection(bodies); })
+            if (auto found = Tangential::objection(bodies)) return found;
+        return Rotation::objection(bodies);
+    }
+
+private:
+    /// Springs with a stiffness of their own do not change with the contact, and stay.
+    template <class T>
+    [[gnu::always_inline]] static void follow(const Prepared& p, const Contact<T>& contact,
+                                              FollowingRotationSpring<T>& spring) {
+        const T kept = Tangential::keptStretch(spring.contactRadius, contact.contactRadius);
+        if (p.rotation.rolling.shareOfSliding > 0)
+            spring.rolling.displacement = kept * spring.rolling.displacement;
+        if (p.rotation.torsion.shareOfSliding > 0) spring.torsion = kept * spring.torsion;
+        spring.contactRadius = contact.contactRadius;
     }
 };
 
