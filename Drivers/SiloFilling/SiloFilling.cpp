@@ -19,7 +19,7 @@ struct Options {
     RunOptions run{.output = "SiloFilling-output"};
 };
 
-struct SiloFilling : Simulation<HertzianViscoelasticMindlinSpecies> {
+struct SiloFilling : Simulation<HertzianViscoelasticMindlinIncrementalSpecies> {
     explicit SiloFilling(const Options& given) : o(given) { o.run.apply(*this), setTimeMax(o.endTime); }
 
     void setupInitialConditions() override {

@@ -10,7 +10,7 @@
 
 namespace {
 
-using Material = HertzianViscoelasticMindlinSpecies;
+using Material = HertzianViscoelasticMindlinIncrementalSpecies;
 
 /// Degrees, between the jets and the plates.
 constexpr std::array angles{5.0, 10.0, 14.0, 18.0, 22.0, 27.0, 34.0, 42.0, 50.0, 60.0, 70.0, 80.0, 90.0};

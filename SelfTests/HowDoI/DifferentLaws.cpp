@@ -3,8 +3,8 @@
 namespace {
 
 // [snippet]
-using Dry = HertzianViscoelasticMindlinSpecies;
-using Wet = HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies;
+using Dry = HertzianViscoelasticMindlinIncrementalSpecies;
+using Wet = HertzianViscoelasticMindlinIncrementalLiquidBridgeBagheriSpecies;
 
 struct DifferentLaws : Simulation<Dry, Wet> {
     void setupInitialConditions() override {

@@ -5,7 +5,7 @@ namespace {
 
 #define main mainOfFirstDriver [[maybe_unused]]
 // [snippet]
-struct FirstDriver : Simulation<HertzianViscoelasticMindlinSpecies> {
+struct FirstDriver : Simulation<HertzianViscoelasticMindlinIncrementalSpecies> {
     void setupInitialConditions() override {
         auto material = speciesHandler.copyAndAddObject({});
         material->setDensity(2500);                                                 // kg/m^3

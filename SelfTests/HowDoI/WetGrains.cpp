@@ -4,7 +4,7 @@
 namespace {
 
 // [snippet]
-struct WetGrains : Simulation<HertzianViscoelasticMindlinLiquidBridgeYoungLaplaceSpecies> {
+struct WetGrains : Simulation<HertzianViscoelasticMindlinIncrementalLiquidBridgeYoungLaplaceSpecies> {
     void setupInitialConditions() override {
         auto material = speciesHandler.copyAndAddObject({});
         material->setDensity(2500);

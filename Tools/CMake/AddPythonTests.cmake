@@ -26,6 +26,11 @@ if(TARGET view)
     set(viewProgram "$<TARGET_FILE:view>")
 endif()
 
+set(wetTower "")
+if(TARGET WetTower)
+    set(wetTower "$<TARGET_FILE:WetTower>")
+endif()
+
 file(GLOB pythonTests CONFIGURE_DEPENDS "${selfTests}/Python/*_test.py")
 foreach(file IN LISTS pythonTests)
     cmake_path(GET file STEM name)
@@ -35,5 +40,5 @@ foreach(file IN LISTS pythonTests)
     endif()
     add_test(NAME Python/${name} COMMAND "${Python_EXECUTABLE}" -m pytest -q -p no:cacheprovider "${file}")
     set_tests_properties(Python/${name} PROPERTIES LABELS ${label} ENVIRONMENT
-        "PYTHONPATH=${PROJECT_BINARY_DIR}/Python;PYTHONDONTWRITEBYTECODE=1;PENDULAR_SHARE_SMALL_WORK=1;PENDULAR_SAME_BITS=$<TARGET_FILE:SameBits>;PENDULAR_SPECIES_LIBRARY=${speciesLibrary};PENDULAR_VIEW=${viewProgram};PENDULAR_MYPY_CACHE=${PROJECT_BINARY_DIR}/SelfTests/mypy")
+        "PYTHONPATH=${PROJECT_BINARY_DIR}/Python;PYTHONDONTWRITEBYTECODE=1;PENDULAR_SHARE_SMALL_WORK=1;PENDULAR_SAME_BITS=$<TARGET_FILE:SameBits>;PENDULAR_SPECIES_LIBRARY=${speciesLibrary};PENDULAR_VIEW=${viewProgram};PENDULAR_WET_TOWER=${wetTower};PENDULAR_MYPY_CACHE=${PROJECT_BINARY_DIR}/SelfTests/mypy")
 endforeach()

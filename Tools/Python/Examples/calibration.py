@@ -31,6 +31,7 @@ def angle_of(x, y, z, foot=FOOT):
 def heap(friction, rolling, seed=1, time=0.25):
     """The angle (degrees, by moments) and the width (m, root mean square of the distances from the axis) of a heap."""
     scene = pendular.Scene()
+    # Mindlin, not MindlinIncremental: only the angle and the width of the heap count, bulk quantities.
     sand = scene.add_species("HertzianViscoelasticMindlinRollingTorsion", density=2500, young_modulus=2e6,
                              poisson_ratio=0.25, restitution_coefficient=0.3, sliding_friction_coefficient=friction,
                              rolling_stiffness=1e3, rolling_dissipation=1e-4, rolling_friction_coefficient=rolling,

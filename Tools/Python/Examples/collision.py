@@ -15,8 +15,8 @@ import pendular
 def collide(speed=0.25, radius=1e-3):
     """Columns of time (s), gap (m), force between the grains (N, repulsion positive) and relative speed (m/s)."""
     scene = pendular.Scene()
-    glass = scene.add_species("HertzianViscoelasticMindlinLiquidBridgeBagheri", density=2500, young_modulus=1e7,
-                              poisson_ratio=0.3, restitution_coefficient=0.7, sliding_friction_coefficient=0.3,
+    glass = scene.add_species("HertzianViscoelasticMindlinIncrementalLiquidBridgeBagheri", density=2500,
+                              young_modulus=1e7, poisson_ratio=0.3, restitution_coefficient=0.7, sliding_friction_coefficient=0.3,
                               liquid_bridge_volume=1e-11, contact_angle=0.3, surface_tension=0.072)
     scene.add_grains(glass, [[-1.05 * radius, 0, 0], [1.05 * radius, 0, 0]], radius,
                      velocity=[[speed, 0, 0], [-speed, 0, 0]])

@@ -54,6 +54,7 @@ def slope(scene):
 
 def make_drum(mesh=None, scale=1.0, speed=3.0):
     scene = pendular.Scene()
+    # Mindlin, not MindlinIncremental: only the slope counts, a bulk quantity.
     glass = scene.add_species("HertzianViscoelasticMindlin", density=2500, young_modulus=5e6, poisson_ratio=0.25,
                               restitution_coefficient=0.5, sliding_friction_coefficient=0.5)
     drum = scene.add_mesh(glass, drum_mesh() if mesh is None else mesh, scale=scale)

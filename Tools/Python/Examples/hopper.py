@@ -26,6 +26,7 @@ def empty(outlet, fill=0.55):
     """Columns of time (s) and of the mass (kg) that has come out, up to a quarter, which leaves a head of more than two outlets;
     and the bulk density (kg/m^3) of the bed at rest: its mass over the cylinder up to the mean of the twenty highest centres."""
     scene = pendular.Scene()
+    # Mindlin, not MindlinIncremental: only the flow counts, a bulk quantity.
     glass = scene.add_species("HertzianViscoelasticMindlin", density=DENSITY, young_modulus=2e6, poisson_ratio=0.25,
                               restitution_coefficient=0.7, sliding_friction_coefficient=0.25)  # glass beads
     # A flat bottom with a round outlet: that is what Beverloo's constants are for.

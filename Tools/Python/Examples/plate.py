@@ -82,9 +82,9 @@ def couple(scene, strips, plate, steps=4):
 def make_scene():
     """A layer of grains above the strips, which repeats itself along y, and the strips."""
     scene = pendular.Scene()
-    glass = scene.add_species("HertzianViscoelasticMindlin", density=2500, young_modulus=2e6, poisson_ratio=0.25,
+    glass = scene.add_species("HertzianViscoelasticMindlinIncremental", density=2500, young_modulus=2e6, poisson_ratio=0.25,
                               restitution_coefficient=0.3, sliding_friction_coefficient=0.4)
-    smooth = scene.add_species("HertzianViscoelasticMindlin", density=2500, young_modulus=2e6, poisson_ratio=0.25,
+    smooth = scene.add_species("HertzianViscoelasticMindlinIncremental", density=2500, young_modulus=2e6, poisson_ratio=0.25,
                                restitution_coefficient=0.3, sliding_friction_coefficient=0)
     scene.set_pair(glass, smooth, sliding_friction_coefficient=0)
     scene.set_periodic("y", 0, WIDTH)

@@ -13,7 +13,7 @@ import pendular
 
 def make_scene(name):
     scene = pendular.Scene(name)
-    glass = scene.add_species("HertzianViscoelasticMindlin", density=2500, young_modulus=5e6, poisson_ratio=0.25,
+    glass = scene.add_species("HertzianViscoelasticMindlinIncremental", density=2500, young_modulus=5e6, poisson_ratio=0.25,
                               restitution_coefficient=0.5, sliding_friction_coefficient=0.4)
     scene.add_box(glass, (0, 0, 0), (0.012, 0.012, 0.03))
     scene.gravity = (0, 0, -9.81)

@@ -19,6 +19,7 @@ def heap(friction, time=0.1):
     """A row, of a column of grains that has fallen apart for a time (s): height_m, of the highest centre above the floor;
     spread_m, the mean horizontal distance of the centres from the axis of the column; hash, of the state."""
     scene = pendular.Scene()
+    # Mindlin, not MindlinIncremental: only the spread of the heap counts, a bulk quantity.
     glass = scene.add_species("HertzianViscoelasticMindlin", density=2500, young_modulus=5e6, poisson_ratio=0.25,
                               restitution_coefficient=0.5, sliding_friction_coefficient=friction)
     scene.add_plane(glass, (0, 0, -1), (0, 0, 0))

@@ -18,8 +18,8 @@ def make_shear(edge=8):
     """A cube of edge^3 grains, and its length (m)."""
     length = 1.05 * edge * DIAMETER
     scene = pendular.Scene()
-    wet = scene.add_species("HertzianViscoelasticMindlinLiquidBridgeWillett", density=2500, young_modulus=5e6,
-                            poisson_ratio=0.25, restitution_coefficient=0.5, sliding_friction_coefficient=0.4,
+    wet = scene.add_species("HertzianViscoelasticMindlinIncrementalLiquidBridgeBagheri", density=2500,
+                            young_modulus=5e6, poisson_ratio=0.25, restitution_coefficient=0.5, sliding_friction_coefficient=0.4,
                             liquid_bridge_volume=2e-11, contact_angle=0.3, surface_tension=0.05)
     for axis in "xyz":
         scene.set_periodic(axis, 0, length)

@@ -2,7 +2,7 @@
 
     import pendular
     scene = pendular.Scene()
-    glass = scene.add_species("HertzianViscoelasticMindlin", density=2500, young_modulus=5e6, poisson_ratio=0.25,
+    glass = scene.add_species("HertzianViscoelasticMindlinIncremental", density=2500, young_modulus=5e6, poisson_ratio=0.25,
                               restitution_coefficient=0.5, sliding_friction_coefficient=0.4)
     scene.add_grains(glass, [[0, 0, 2e-3]], 1e-3)
     scene.add_plane(glass, outward=(0, 0, -1), point=(0, 0, 0))

@@ -1,0 +1,111 @@
+"""What the pages advise is what the module, the examples and the drivers do by default.
+
+A kind of advice (the law; others may follow) has one page that states it, with a table of the programs that do otherwise and why.
+The tests below read the page, and compare it with the other pages, with the module, and with the sources of all programs.
+"""
+import re
+from pathlib import Path
+
+import pytest
+
+import pendular
+
+ROOT = Path(__file__).parents[2]
+DRIVERS, EXAMPLES = ROOT / "Drivers", ROOT / "Tools/Python/Examples"
+
+
+def page(name):
+    """Its text without the targets of links, each run of blanks and ends of lines as one blank."""
+    return " ".join(re.sub(r"\]\([^)]*\)", "]", (ROOT / name).read_text()).split())
+
+
+def rows_below(name, heading):
+    """The first two columns of the table below a heading of a page, without backquotes around the first."""
+    text = (ROOT / name).read_text().partition(f"\n{heading}\n")[2].partition("\n#")[0]
+    rows = re.findall(r"^\| `([^|]*)` \| ([^|]*) \|", text, flags=re.M)
+    assert rows, f"{name} has no table below {heading}"
+    return dict(rows)
+
+
+def drivers():
+    return sorted(folder.name for folder in DRIVERS.iterdir() if (folder / f"{folder.name}.cpp").exists())
+
+
+def sources_of(driver):
+    """The text of a driver, with all that it includes of Drivers/."""
+    seen, files = {}, list((DRIVERS / driver).glob("*.cpp"))
+    while files:
+        file = files.pop()
+        if file in seen:
+            continue
+        seen[file] = file.read_text()
+        for name in re.findall(r'^#include "(Drivers/[^"]*)"', seen[file], flags=re.M):
+            files += [found for found in (ROOT / name, (ROOT / name).with_suffix(".cpp")) if found.exists()]
+    return "\n".join(seen.values())
+
+
+def examples():
+    return {file.name: file.read_text() for file in sorted(EXAMPLES.rglob("*.py"))}
+
+
+def snippets(name):
+    """The code of a page, but that of superquadrics and blocks, whose scenes are compiled for few species."""
+    code = re.findall(r"```(?:cpp|python)\n(.*?)```", (ROOT / name).read_text(), flags=re.S)
+    return [text for text in code if not re.search("superquadric", text, flags=re.I)]
+
+
+# The law -------------------------------------------------------------------------------------------------------------
+
+LAWS = "Kernel/Species/README.md"  # has the start
+FRICTION = "Kernel/Species/Friction/README.md"  # has the rule
+EXCEPTIONS = "### Programs that take `Mindlin`"
+# Laws of MercuryDPM on Hertz' force, as the name of a species or as a type; not MindlinIncremental and MindlinPartialSlip.
+OTHER = re.compile(r"\bHertzianViscoelasticMindlin(?!Incremental|PartialSlip)|\bSpecies<HertzianViscoelastic, Mindlin(?:Secant|RollingTorsion)?[,>]")
+FOLLOWING = re.compile(r"\bHertzianViscoelasticMindlin(?:Incremental|PartialSlip)")
+
+
+def advised():
+    """Normal, tangential and bridge law that the page says to start with."""
+    return re.search(r"Start with `(\w+)` and `(\w+)`, for wet grains with `(\w+)`", page(LAWS)).groups()
+
+
+def test_the_advised_law_can_be_had():
+    normal, tangential, bridge = advised()
+    wanted = {f"{normal}{tangential}{end}" for end in ("", bridge, "LiquidBridgeBagheri", "RollingTorsion")}
+    assert wanted <= set(pendular.species())
+    for name in sorted(wanted):
+        assert pendular.Scene().add_species(name).name == name
+
+
+@pytest.mark.parametrize("name", [FRICTION, LAWS, "Kernel/HOW-DO-I.md", "Tools/Python/HOW-DO-I.md"])
+def test_pages_say_one_thing_of_the_law(name):
+    text, (_, tangential, _) = page(name), advised()
+    assert re.search(f"(?i)(take|start with `\\w+` and) `{tangential}`", text)
+    rule = re.search(r"(?i)`Mindlin`[^.]*(?:results of MercuryDPM)[^.]*where only bulk quantities count", text)
+    assert rule, f"{name} does not say when to take Mindlin"
+
+
+def test_drivers_follow_the_advice_on_the_law():
+    others = {name for name in drivers() if OTHER.search(sources_of(name))}
+    assert others == {row.partition("/")[2] for row in rows_below(FRICTION, EXCEPTIONS) if row.startswith("Drivers/")}
+    assert {"WetTower", "SiloFilling", "WornPlates"} <= {name for name in drivers() if FOLLOWING.search(sources_of(name))}
+
+
+def test_examples_follow_the_advice_on_the_law():
+    folder = "Tools/Python/Examples/"
+    others = {name for name, text in examples().items() if OTHER.search(text)}
+    assert others == {row.removeprefix(folder) for row in rows_below(FRICTION, EXCEPTIONS) if row.startswith(folder)}
+    assert len([name for name, text in examples().items() if FOLLOWING.search(text)]) > 3
+
+
+@pytest.mark.parametrize("name", ["README.md", "Tools/Python/README.md", "Kernel/HOW-DO-I.md", "Tools/Python/HOW-DO-I.md"])
+def test_snippets_follow_the_advice_on_the_law(name):
+    assert not [text for text in snippets(name) if OTHER.search(text)]
+    assert [text for text in snippets(name) if FOLLOWING.search(text)]
+
+
+def test_exceptions_have_a_reason():
+    """By the rule: another's results, or a bulk quantity that alone counts."""
+    for program, reason in rows_below(FRICTION, EXCEPTIONS).items():
+        assert re.search(r"reproduces|only the .* counts?$|beside other programs", reason), program
+        assert (ROOT / program).exists() or (ROOT / f"{program}.cpp").exists(), program
