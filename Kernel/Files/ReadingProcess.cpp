@@ -174,8 +174,7 @@ ReadingProcess::ReadingProcess(const Limits& most, const std::function<void(cons
     if (child < 0) {
         if (isPair) close(ends[0]);
         throw InputError(
-            fmt::format("A file of others is read in a process of its own, and there can be none: {}.",
-                        std::strerror(problem)));
+            fmt::format("The process that is to read a file cannot be started: {}.", std::strerror(problem)));
     }
     socket = ends[0];
     connection = Channel(socket);
