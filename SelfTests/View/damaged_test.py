@@ -101,6 +101,18 @@ def test_a_frame_that_claims_more_than_is_stored_takes_no_memory(serve, root):
     assert "has data of the wrong size" in refused(server, "/api/frame?id=claims/run&frame=0") and peak(server) < 100_000
 
 
+def test_a_field_whose_name_is_no_utf8(serve, root):
+    write_many_points(root / "few", 10)
+    frame = root / "few" / "run-particles-000000000.vtp"
+    content = frame.read_bytes()
+    row = re.search(rb"<DataArray [^\n]*radius_m[^\n]*\n", content)[0]
+    frame.write_bytes(content.replace(row, row + row.replace(b"radius_m", b"f\xe9_m")))
+    server = serve()
+    for path in ("row?id=few/run&frame=0&of=grains&row=0", "frame?id=few/run&frame=0"):
+        status, content, _ = server.ask(f"/api/{path}")
+        assert status == 200, content
+
+
 def test_a_summary_of_any_length_takes_no_memory(serve, root):
     texts = {"short": "grains,1,\n", "long": "grains,1,\n" * 10**6, "many": "".join(f"{k},1,J\n" for k in range(9 * 10**4)) + "grains,2,\n"}
     for name, rows in texts.items():
