@@ -85,6 +85,7 @@ public:
     bool isPlastic = false;
     bool resistsMotion = false;  // a bridge
     bool hasLargestCapillaryNumber = false;
+    bool keepsForce = false;  // tangential springs follow the contact radius: KeepsForce
     OverlapLimit overlapLimit;
     double largestOverlapInRun = usualOverlapInRun;  // of the smaller radius; more ends a run
 

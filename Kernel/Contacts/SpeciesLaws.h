@@ -34,6 +34,7 @@ public:
         hasLargestCapillaryNumber = HasLargestCapillaryNumber<Adhesion>;
         breaks = formsAtContact || resistsMotion;
         isPlastic = HasNormalHistory<typename S::Normal>;
+        keepsForce = KeepsForce<typename S::Friction>;
         overlapLimit = pendular::overlapLimit<typename S::Mixed>();
         largestOverlapInRun = pendular::largestOverlapInRun<typename S::Mixed>();
     }

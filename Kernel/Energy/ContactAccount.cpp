@@ -80,6 +80,17 @@ double givenByHeld(const ContactSample& s, const BodyMotion& first, const BodyMo
     return given;
 }
 
+/// J, by which the energy k s^2/2 of a spring grows in a step because its stiffness changes, at its mean
+/// stretch. One that keeps its force as it gets stiffer loses k_1 s^2/2 (1 - k_1/k_2), with the stretch s
+/// before that, which is s_1 of the last sample at first, and becomes s_2.
+double gainedByStiffness(const SliderSample& last, const SliderSample& now, bool keepsForce) {
+    const double k1 = last.stiffness, k2 = now.stiffness;
+    if (!keepsForce || k2 <= k1) return 0.25 * (k2 - k1) * (now.stretch2 + last.stretch2);
+    const double ratio = k2 / k1;
+    const double before2 = ratio < 2 ? 0.5 * (last.stretch2 + ratio * ratio * now.stretch2) : last.stretch2;
+    return -0.5 * k1 * (1 - 1 / ratio) * before2;
+}
+
 /// The entries of one spring with dashpot and slider.
 struct SliderEntries {
     double &stored, &dashpot, &slider, &stiffening, &stepError;
@@ -87,31 +98,35 @@ struct SliderEntries {
 
 /// @param before, after: velocities (m/s) against which the forces of the two samples work
 void addSlider(const SliderSample& last, const SliderSample& now, const Vector<double>& before,
-               const Vector<double>& after, bool lasts, double step, SliderEntries entries) {
+               const Vector<double>& after, bool lasts, bool keepsForce, double step, SliderEntries entries) {
     const double half = 0.5 * step;
     (last.slides > 0 ? entries.slider : entries.dashpot) -= half * dot(last.rest, before);
     (now.slides > 0 ? entries.slider : entries.dashpot) -= half * dot(now.rest, after);
 
     const double work = -half * (dot(last.spring, before) + dot(now.spring, after));
-    // The stored energy k s^2/2 changes by the way, and by the stiffness.
-    const double byStiffness =
-        lasts ? 0.25 * (now.stiffness - last.stiffness) * (now.stretch2 + last.stretch2) : 0;
+    // The stored energy k s^2/2 changes by the way, and by the stiffness. When in the step a spring that
+    // keeps its force loses some of its stretch is the integrator's: what its energy is short of counts with
+    // that.
+    const double byStiffness = lasts ? gainedByStiffness(last, now, keepsForce) : 0;
     const double missing = work - (now.stored() - last.stored() - byStiffness);
-    (now.slides + last.slides > 0 ? entries.slider : entries.stepError) += missing;
+    const bool follows = keepsForce && lasts && now.stiffness != last.stiffness;
+    (now.slides + last.slides > 0 ? entries.slider
+     : follows                    ? entries.stiffening
+                                  : entries.stepError) += missing;
     entries.stiffening -= byStiffness;
     entries.stored += now.stored();
 }
 
 }  // namespace
 
-double slidingWorkAtWall(const EnergyRecord& record, const BodyMotion& grain, bool isShaped, double step) {
+double slidingWorkAtWall(const EnergyRecord& record, const BodyMotion& grain, const ContactKind& kind,
+                         double step) {
     const ContactSample &last = record.last, &now = record.now;
     if (!(now.sliding.slides + last.sliding.slides > 0)) return 0;
-    const ContactKind kind{.isWall = true, .isShaped = isShaped};
     double stored = 0, dashpot = 0, slider = 0, stiffening = 0, stepError = 0;
     addSlider(last.sliding, now.sliding, relativeMotion(last, grain, {}, kind).slip,
-              relativeMotion(now, grain, {}, kind).slip, last.touching > 0 && now.touching > 0, step,
-              {stored, dashpot, slider, stiffening, stepError});
+              relativeMotion(now, grain, {}, kind).slip, last.touching > 0 && now.touching > 0,
+              kind.keepsForce, step, {stored, dashpot, slider, stiffening, stepError});
     return slider;
 }
 
@@ -196,12 +211,12 @@ void addContact(EnergyRecord& record, const BodyMotion& first, const BodyMotion&
     const auto entriesOf = [&](double& stored, double& dashpot, double& slider) {
         return SliderEntries{stored, dashpot, slider, account.stiffening, account.stepError};
     };
-    addSlider(last.sliding, now.sliding, before.slip, after.slip, lasts, step,
+    addSlider(last.sliding, now.sliding, before.slip, after.slip, lasts, kind.keepsForce, step,
               entriesOf(account.tangentialElastic, account.tangentialDashpots, account.sliding));
     if (kind.hasCouples) {
-        addSlider(last.rolling, now.rolling, before.turning, after.turning, lasts, step,
+        addSlider(last.rolling, now.rolling, before.turning, after.turning, lasts, kind.keepsForce, step,
                   entriesOf(account.rollingElastic, account.rolling, account.rolling));
-        addSlider(last.torsion, now.torsion, before.turning, after.turning, lasts, step,
+        addSlider(last.torsion, now.torsion, before.turning, after.turning, lasts, kind.keepsForce, step,
                   entriesOf(account.torsionElastic, account.torsion, account.torsion));
     }
 }

@@ -24,6 +24,7 @@ struct ContactKind {
     bool adhesionBreaks = false;  // else it is a function of the separation, which loses nothing
     bool hasCouples = true;       // torques besides those of its force
     bool resistsMotion = true;    // a bridge
+    bool keepsForce = false;      // tangential springs follow the contact radius
     bool isShaped = true;         // between bodies that are no spheres
     // Of a wall whose kinetic energy is in the ledger, where it is touched, in the step; and of the wall that
     // was touched before, if a contact has gone on with another one.
@@ -37,7 +38,8 @@ ContactWear contactWear(const EnergyRecord& record, double slidingWork, const Ve
                         double mass);
 
 /// J: what the slider of a contact with a wall dissipates in a step (s), as addContact() has it.
-double slidingWorkAtWall(const EnergyRecord& record, const BodyMotion& grain, bool isShaped, double step);
+double slidingWorkAtWall(const EnergyRecord& record, const BodyMotion& grain, const ContactKind& kind,
+                         double step);
 
 /// Adds to an account what one contact did in a step (s).
 void addContact(EnergyRecord& record, const BodyMotion& first, const BodyMotion& second,

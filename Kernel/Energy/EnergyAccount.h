@@ -248,6 +248,7 @@ private:
                          .adhesionBreaks = laws.breaks,
                          .hasCouples = scene.contacts.layout().hasContactTorque,
                          .resistsMotion = laws.resistsMotion,
+                         .keepsForce = laws.keepsForce,
                          .isShaped = scene.contacts.laws().shapes() != nullptr};
         if (kind.isWall) {
             kind.lastPiston = pistonMotion(scene.walls, static_cast<int>(record.lastWall), record.last, true);

@@ -72,17 +72,21 @@ void WearAccount::finish(const ParticleStore& grains, ContactSystem& contacts, c
                 [&](std::size_t k, const Bucket& bucket, const ContactBlock& block, std::size_t lane,
                     EnergyRecord& record) {
                     const BodyMotion grain = meanMotion(grains, block.first[lane]);
+                    const ContactKind kind{
+                        .isWall = true,
+                        .hasCouples = false,
+                        .resistsMotion = false,
+                        .keepsForce = contacts.laws().ofPair(bucket.species1, bucket.species2).keepsForce,
+                        .isShaped = isShaped};
                     if (step > 0 && wear.wears(bucket.wall)) {
-                        const double work = slidingWorkAtWall(record, grain, isShaped, step);
+                        const double work = slidingWorkAtWall(record, grain, kind, step);
                         if (WearOfStep::isWorn(record, work)) {
                             wears[k] = 1;
                             worn[k] = WearOfStep::of(grains, contacts.periodicBox(), bucket, block, lane,
                                                      record, grain, work);
                         }
                     }
-                    takeNowAsLast(
-                        record,
-                        {.isWall = true, .hasCouples = false, .resistsMotion = false, .isShaped = isShaped});
+                    takeNowAsLast(record, kind);
                 });
         },
         worthAThread, shareOf(share));

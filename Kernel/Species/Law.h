@@ -229,6 +229,14 @@ concept FrictionLaw = HasFieldTable<Law> && HasRange<Law> && std::same_as<declty
           { Law::stiffness(p, contact) } -> std::same_as<double>;  // N/m, of the tangential spring
       }));
 
+/// A friction law whose springs follow the contact radius: where it grows they keep their force, and not
+/// their stretch. keptStretch(a0, a) is the share of the stretch that is left of a spring over the whole
+/// contact where the radius a0 has become a (m).
+template <class Law>
+concept KeepsForce = requires {
+    { Law::keptStretch(1.0, 1.0) } -> std::same_as<double>;
+};
+
 /// A friction law that gives torques of its own to the two bodies (rolling, torsion), besides those of the
 /// tangential force:
 ///     rotationForce(p, contact, normalForce, normal, turning, history): the torque on body 1 over the

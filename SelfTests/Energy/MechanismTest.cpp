@@ -1,8 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
+#include "Kernel/Species/Friction/CombinedLaws.h"
+#include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Friction/SlidingRollingTorsion.h"
+#include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 
@@ -154,6 +158,78 @@ TEST(Mechanism, theAccountClosesUnderEveryIntegrator) {
         for (const double lost : {ledger.normalDashpots, ledger.sliding, ledger.rolling})
             EXPECT_GT(lost, 1e-3 * start) << integrator.name;
     }
+}
+
+/// A held grain on a plate that moves: the plate shears the contact, then presses it to another overlap.
+template <class F>
+struct PressedAndSheared : FewGrains<Species<HertzianViscoelastic, F>> {
+    static constexpr double shallow = 0.01 * radius, way = 1e-6;  // m
+    static constexpr int stepsOfMotion = 2000;
+
+    PressedAndSheared()
+        : FewGrains<Species<HertzianViscoelastic, F>>(
+              hertzian(), {{.radius = radius, .position = {0, 0, radius - shallow}, .fixed = true}},
+              stepLength, {{{0, 0, -1}, {0, 0, 0}}}) {
+        this->setHeldContacts(HeldContacts::All);
+        this->keepEnergyLedger();
+        this->acceptUnstableTimeStep();
+        this->initialise();
+    }
+    static Species<HertzianViscoelastic, F> hertzian() {
+        Species<HertzianViscoelastic, F> species;
+        species.setDensity(density);
+        species.setEffectiveElasticModulusAndRestitutionCoefficient(1e7, 0.5);
+        species.setEffectiveShearModulus(4e6);
+        species.setSlidingFrictionCoefficient(100);  // nothing slides
+        return species;
+    }
+    /// @param by m, of the plate, in so many steps; then it rests for some
+    void move(const Vec3D& by) {
+        const auto go = [&](const Vec3D& velocity, int steps) {
+            dynamic_cast<InfiniteWall&>(this->wallHandler.getObject(0)).setVelocity(velocity);
+            for (int k = 0; k < steps; ++k) this->step();
+        };
+        go(by / (stepsOfMotion * stepLength), stepsOfMotion);
+        go(Vec3D::Zero(), 3);
+    }
+    void press(double by) { move({0, 0, by}); }
+};
+
+/// What the stiffness takes of the energy E of a sheared contact that is pressed to four times its overlap,
+/// so that k becomes 2 k, and let back: over E.
+template <class F>
+std::array<double, 2> lostByStiffness() {
+    PressedAndSheared<F> contact, unsheared;
+    const EnergyLedger &ledger = contact.energyLedger(), &ofNormal = unsheared.energyLedger();
+    contact.move({contact.way, 0, 0});
+    const double stored = ledger.tangentialElastic;
+    const double stiffness = 8 * 4e6 * std::sqrt(radius * contact.shallow) * F{}.getSpringFactor();
+    EXPECT_NEAR(stored / (0.5 * stiffness * contact.way * contact.way), 1, 1e-3);  // half a step of the way
+    EXPECT_EQ(ledger.stiffening, 0);
+    EXPECT_GT(ledger.tangentialDashpots, 0);
+    const double before = ledger.stepError;
+    std::array<double, 2> lost{};
+    for (const double by : {3 * contact.shallow, -3 * contact.shallow}) {
+        const double last = ledger.stiffening;
+        contact.press(by), unsheared.press(by);
+        lost[by > 0 ? 0 : 1] = (ledger.stiffening - last) / stored;
+    }
+    EXPECT_EQ(ledger.sliding, 0);
+    EXPECT_NEAR((ledger.stepError - before - ofNormal.stepError) / stored, 0, 1e-5);
+    return lost;
+}
+
+// A spring that keeps its stretch gains E, and gives it back. One that keeps its force as the contact closes
+// has E/2 then, and half of that where it opens again: 1/2 and 1/4 of E are lost, and nothing has slid. (So
+// nothing is worn of a wall, either.) The stiffness changes by 1/1000 in a step: 1e-5 is ten times the
+// square.
+TEST(Mechanism, stiffnessTakesOfSpringsWhatTheirLawSays) {
+    const auto kept = lostByStiffness<Mindlin>();
+    EXPECT_NEAR(kept[0], -1, 1e-5);
+    EXPECT_NEAR(kept[1], 1, 1e-5);
+    const auto follows = lostByStiffness<MindlinIncremental>();
+    EXPECT_NEAR(follows[0], 0.5, 1e-5);
+    EXPECT_NEAR(follows[1], 0.25, 1e-5);
 }
 
 }  // namespace

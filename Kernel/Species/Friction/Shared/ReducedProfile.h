@@ -143,13 +143,14 @@ struct ReducedProfile : MindlinSpring<Law> {
     [[gnu::always_inline]] static SliderForce<T> slide(const typename Spring::Prepared& p,
                                                        const Contact<T>& contact, T normalForce,
                                                        const Slip<T>& slip, History<T>& memory) {
-        const auto changes = contact.contactRadius != memory.contactRadius;
+        const auto opens = contact.contactRadius < memory.contactRadius;
         memory.follow(contact.contactRadius);
         SliderForce<T> result =
             slideProfile(Spring::springStiffness(p, contact), Spring::springDamping(p, contact),
                          p.coefficient * max(normalForce, T(0)), slip, memory);
-        // The energy of springs that come and go is lost: the ledger counts it as slip.
-        result.slips = result.slips | changes;
+        // The energy of the outer spring that goes is lost: the ledger counts it as slip. That of a single
+        // one follows from its stiffness.
+        if constexpr (springs > 1) result.slips = result.slips | opens;
         return result;
     }
 };

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include "Kernel/Species/Friction/Shared/RollingTorsion.h"
 #include "Kernel/Species/Setter.h"
@@ -29,13 +30,6 @@ template <class Tangential>
 concept HasFullStiffness = requires(const typename Tangential::Prepared p, const Contact<double>& contact) {
     Tangential::fullStiffness(p, contact);
 };
-/// One whose springs keep their force, and not their stretch, where the contact closes: keptStretch(a0, a) is
-/// the share of the stretch that is left where the contact radius has become a (m).
-template <class Tangential>
-concept KeepsForce = requires {
-    Tangential::keptStretch(1.0, 1.0);
-};
-
 /// Any tangential law, and beside it linear springs against rolling and torsion: see RollingTorsion. Where
 /// these have the stiffness of the tangential law, they follow the contact radius as its springs do. Law is
 /// the law derived from this; Tangential is a friction law, or the base of one that is derived from Law.
@@ -81,19 +75,8 @@ struct RollingTorsionFriction : Tangential, RollingTorsion<Law> {
                                                            const Slip<T>& turning, History<T>& springs) {
         T stiffness = 0;
         if constexpr (rotatesAsItSlides) stiffness = Tangential::fullStiffness(p.tangential, contact);
-        if constexpr (keepsForce) {
-            const auto changes = contact.contactRadius != springs.rotation.contactRadius;
-            follow(p, contact, springs.rotation);
-            RotationForces<T> forces =
-                Rotation::turnSprings(p.rotation, stiffness, normalForce, normal, turning, springs.rotation);
-            // The energy of springs that come and go is lost: the ledger counts it as slip.
-            if (p.rotation.rolling.shareOfSliding > 0) forces.rolling.slips = forces.rolling.slips | changes;
-            if (p.rotation.torsion.shareOfSliding > 0) forces.torsion.slips = forces.torsion.slips | changes;
-            return forces;
-        } else {
-            return Rotation::turnSprings(p.rotation, stiffness, normalForce, normal, turning,
-                                         springs.rotation);
-        }
+        if constexpr (keepsForce) follow(p, contact, springs.rotation);
+        return Rotation::turnSprings(p.rotation, stiffness, normalForce, normal, turning, springs.rotation);
     }
     template <class T>
     [[gnu::always_inline]] static Vector<T> rotationForce(const Prepared& p, const Contact<T>& contact,
