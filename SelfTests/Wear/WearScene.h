@@ -29,18 +29,20 @@ inline double heightAtRest(double r = radius) {
 }
 
 /// Grains that a plate wears under.
-class PlateScene : public WallScene<Dry> {
+template <class S>
+class PlateSceneOf : public WallScene<S> {
 public:
-    PlateScene(const std::vector<scenes::GrainMotion>& grains, TriangleWall wall, const WearLaw& law,
-               const Vec3D& weight = {0, 0, -fieldOfGravity}, double timeStep = wallTests::step)
-        : WallScene<Dry>(grains, wallTests::material<Dry>(0.6, friction), weight, timeStep) {
-        setQuiet();
+    PlateSceneOf(const std::vector<scenes::GrainMotion>& grains, TriangleWall wall, const WearLaw& law,
+                 const Vec3D& weight = {0, 0, -fieldOfGravity}, double timeStep = wallTests::step)
+        : WallScene<S>(grains, wallTests::material<S>(0.6, friction), weight, timeStep) {
+        this->setQuiet();
         wall.keepWear(law);
-        worn = add(std::move(wall));
+        worn = this->add(std::move(wall));
     }
     [[nodiscard]] SurfaceWear wear() const { return worn->getWear().sum(); }
 
     TriangleWall* worn;
 };
+using PlateScene = PlateSceneOf<Dry>;
 
 }  // namespace pendular::wearTests

@@ -3,6 +3,7 @@
 
 #include "Kernel/Output/SceneFields.h"
 #include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Species/Friction/MindlinIncremental.h"
 #include "SelfTests/Support/TestFolder.h"
 #include "SelfTests/Wear/WearScene.h"
 
@@ -131,6 +132,31 @@ TEST(Wear, isNothingWhereAGrainIsShakenAtRest) {
     EXPECT_EQ(scene.wear().volume, 0);
     // The spring goes to and fro by the force, 2/7 m a, over its stiffness: 1e-8 m, eight times.
     EXPECT_GT(slip, 1e-12);
+}
+
+/// Shaken along the plate and against it, below the limit of slipping: its load changes, and its springs
+/// follow where the law says so, but nothing slides. 0.6 m/s^2 along and 3 m/s^2 against the plate: 2/7 of
+/// 0.6 m/s^2 are less than mu (g - 3 m/s^2) by far.
+template <class F>
+void expectNoWearOfAContactThatSticks() {
+    const double along = 0.6, against = 3, frequency = 2 * std::numbers::pi * 200;  // m/s^2, rad/s
+    PlateSceneOf<Species<HertzianViscoelastic, F>> scene({{.position = {0, 0, heightAtRest()}}}, plate(0.1),
+                                                         archard);
+    scene.worn->setMotion([=](double time) {
+        Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+        const double swing = (1 - std::cos(frequency * time)) / (frequency * frequency);
+        pose.translation() = Vec3D(along, 0, against) * swing;
+        return pose;
+    });
+    scene.initialise();
+    scene.steps(10000);
+    EXPECT_EQ(scene.touching(), 1);
+    EXPECT_EQ(scene.wear().slidingWork, 0) << F::name;
+    EXPECT_EQ(scene.wear().volume, 0) << F::name;
+}
+TEST(Wear, isNothingWhereTheLoadOfAContactThatSticksChanges) {
+    expectNoWearOfAContactThatSticks<Mindlin>();
+    expectNoWearOfAContactThatSticks<MindlinIncremental>();
 }
 
 /// Impacts without gravity: the speeds at the start of the touch are those that were given.
