@@ -452,6 +452,14 @@ TEST(BeforeTheRun, partsOfTheStepBeginBeforeContactsAreListed) {
     }
 }
 
+TEST(BeforeTheRun, contactsHaveNoLaws) {
+    const auto scene = touching(glass());
+    EXPECT_TRUE(isOneSentence(refusal([&] { static_cast<void>(scene->contacts().laws()); })));
+    EXPECT_FALSE(scene->laws().shapes());
+    scene->initialise();
+    EXPECT_EQ(&scene->contacts().laws(), &scene->laws());
+}
+
 TEST(BeforeTheRun, filmsHaveNoReach) {
     EXPECT_EQ(touching(glass())->contacts().filmReach(), 0);
     EXPECT_EQ(touching(bridged())->contacts().filmReach(), 0);
