@@ -6,8 +6,8 @@
 #include <numeric>
 #include <utility>
 
-#include "Kernel/Base/Parallel.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/ContactList.h"
 #include "Kernel/Contacts/ContactMigration.h"
 #include "Kernel/Contacts/FacePassage.h"
