@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "Kernel/Files/TextFile.h"
+#include "Kernel/Simulation/RunStatus.h"
 
 namespace pendular {
 
@@ -31,9 +32,10 @@ SummaryFile::SummaryFile(const std::filesystem::path& file) : path(file) {
 
 std::vector<std::string> SummaryFile::complaints() const {
     std::vector<std::string> found;
-    if (value("state") == "stopped by an error") found.push_back("it stopped: " + value("reason"));
-    for (const char* finite : {"time", "kinetic energy", "largest speed"})
-        if (!std::isfinite(number(finite))) found.push_back(fmt::format("its {} is not finite", finite));
+    if (value("state") == RunStatus::hasFailed) found.push_back("it stopped: " + value("reason"));
+    for (const char* finite : {"time", "kinetic energy", "largest speed"})  // a short summary has the first
+        if (!value(finite).empty() && !std::isfinite(number(finite)))
+            found.push_back(fmt::format("its {} is not finite", finite));
     for (const Row& row : all)
         if (row.unit == "J" && row.quantity != "kinetic energy" && !std::isfinite(number(row.quantity)))
             found.push_back(fmt::format("its {} is not finite", row.quantity));
@@ -70,7 +72,7 @@ double SummaryFile::age() const {
 
 bool SummaryFile::isAboveLimit() const { return number("time step") > number("stability limit"); }
 bool SummaryFile::limitIsAccepted() const { return value("step above the stability limit") == "accepted"; }
-bool SummaryFile::isOnItsWay() const { return value("state") == "on its way"; }
+bool SummaryFile::isOnItsWay() const { return value("state") == RunStatus::onItsWay; }
 
 /// s, for which a run that is on its way may say nothing: ten times as long as it took from one summary to
 /// the next; at least a minute, for a busy machine, and an hour where there was one summary only.
