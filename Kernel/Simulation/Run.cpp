@@ -243,6 +243,7 @@ void Run::writeOutputs(bool atEnd) {
     if (due.empty() && !own) return;
     const StepTimes::Within spent(times, StepTimes::Part::Output);
     write(due, own);
+    if (!own && statusFile && statusFile->isDue()) writeStatus(false);  // else it was one of them
 }
 
 std::vector<const Run::KeptOutput*> Run::dueOutputs(bool atEnd, bool own) {
@@ -309,7 +310,7 @@ void Run::writeStatus(bool isComplete) const {
         if (now.state == RunStatus::atItsEnd) now.endTime = now.time;
         now.addTo(rows);
         addToStatus(rows, isComplete);
-        statusFile->write(std::move(rows), !isComplete);
+        statusFile->write(rows);
     } catch (const std::exception&) {}  // what a run computes does not depend on it
 }
 

@@ -1,7 +1,6 @@
 #include "Kernel/Simulation/RunStatus.h"
 
 #include <system_error>
-#include <utility>
 
 #include "Kernel/Base/Host.h"
 #include "Kernel/Base/InputError.h"
@@ -23,13 +22,8 @@ RunStatusFile::RunStatusFile(const std::string& run) : path(SummaryFile::pathOf(
 
 bool RunStatusFile::isDue() const { return Clock::now() >= next; }
 
-void RunStatusFile::write(SummaryRows rows, bool isInterim) {
-    const Clock::time_point now = Clock::now();
-    next = now + std::chrono::seconds(1);
-    if (isInterim && written)
-        rows.addNumber("wall time since the summary before",
-                       std::chrono::duration<double>(now - *written).count(), "s");
-    written = now;
+void RunStatusFile::write(const SummaryRows& rows) {
+    next = Clock::now() + std::chrono::seconds(1);
     CsvFile file(path, "quantity,value,unit");
     rows.write(file);
     file.close();

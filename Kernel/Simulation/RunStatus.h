@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "Kernel/Step/SummaryRows.h"
@@ -30,14 +29,13 @@ public:
     /// Whether an interim state is to be written.
     [[nodiscard]] bool isDue() const;
     /// Throws InputError.
-    void write(SummaryRows rows, bool isInterim);
+    void write(const SummaryRows& rows);
 
 private:
     using Clock = std::chrono::steady_clock;
 
     std::filesystem::path path;
     Clock::time_point next = Clock::now();
-    std::optional<Clock::time_point> written;  // the last one
 };
 
 /// The program that wrote the summary of this run (its setName()); empty where nothing tells.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "Kernel/Files/TextFile.h"
@@ -75,8 +76,10 @@ bool SummaryFile::limitIsAccepted() const { return value("step above the stabili
 bool SummaryFile::isOnItsWay() const { return value("state") == RunStatus::onItsWay; }
 
 /// s, for which a run that is on its way may say nothing: ten times as long as it took from one summary to
-/// the next; at least a minute, for a busy machine, and an hour where there was one summary only.
+/// the next; at least a minute, for a busy machine, and an hour where there was one summary only. A short
+/// summary (RunStatus.h) does not tell: a run without outputs writes it at its start and at its end.
 double SummaryFile::longestSilence() const {
+    if (value("wall time").empty()) return std::numeric_limits<double>::infinity();
     const double interval = number("wall time since the summary before");
     return std::isfinite(interval) ? std::max(10 * interval, 60.0) : 3600;
 }
