@@ -13,6 +13,17 @@
 
 namespace pendular {
 
+namespace {
+
+/// NaN where the text is no number.
+double numberIn(const std::string& text) {
+    double result = NAN;
+    parseNumber(text, result);
+    return result;
+}
+
+}  // namespace
+
 SummaryFile::SummaryFile(const std::filesystem::path& file) : path(file) {
     const InputFile input = loadTextFile("summary of a run", file);
     std::istringstream lines(input.text);
@@ -38,7 +49,7 @@ std::vector<std::string> SummaryFile::complaints() const {
         if (!value(finite).empty() && !std::isfinite(number(finite)))
             found.push_back(fmt::format("its {} is not finite", finite));
     for (const Row& row : all)
-        if (row.unit == "J" && row.quantity != "kinetic energy" && !std::isfinite(number(row.quantity)))
+        if (row.unit == "J" && row.quantity != "kinetic energy" && !std::isfinite(numberIn(row.value)))
             found.push_back(fmt::format("its {} is not finite", row.quantity));
     if (isAboveLimit() && !limitIsAccepted())
         found.emplace_back("its time step is above the stability limit: the results mean nothing");
@@ -91,10 +102,6 @@ std::string SummaryFile::value(std::string_view quantity) const {
 }
 
 /// NaN where there is none.
-double SummaryFile::number(std::string_view quantity) const {
-    double result = NAN;
-    parseNumber(value(quantity), result);
-    return result;
-}
+double SummaryFile::number(std::string_view quantity) const { return numberIn(value(quantity)); }
 
 }  // namespace pendular
