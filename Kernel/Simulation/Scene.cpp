@@ -14,6 +14,7 @@
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneInside.h"
 #include "Kernel/Species/Field.h"
+#include "Kernel/Step/SummaryRows.h"
 
 namespace pendular {
 
