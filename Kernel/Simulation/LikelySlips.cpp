@@ -41,13 +41,12 @@ void lookAtDensity(const ContactLaws& laws, std::size_t species, double radius, 
 void lookAtModuli(const ContactLaws& laws, int species, Sentences& found) {
     constexpr double softest = 1000;  // Pa
     for (const FieldValue& field : laws.fields(species, species)) {
-        const bool isStiffness = field.name.ends_with("odulus") && field.name != "cohesionModulus";
-        if (!isStiffness || field.unit != "Pa" || !(field.value > 0 && field.value < softest)) continue;
+        const bool isOfNormalLaw = field.name == "effectiveElasticModulus" || field.name == "loadingModulus";
+        if (!isOfNormalLaw || !(field.value > 0 && field.value < softest)) continue;
         found.push_back(fmt::format(
             "species {}: {} = {:.4g} Pa is softer than any grains are: they will sink into each other and "
             "through walls; if the modulus is in GPa or MPa, 1 GPa is 1e9 Pa",
             species, field.name, field.value));
-        return;  // the shear modulus follows from it
     }
 }
 

@@ -289,9 +289,10 @@ RunStatus Run::status(bool isComplete) const {
     return now;
 }
 
-/// A run with files of its name, which the browser shows, says how it ended.
+/// A run with files of its name, which the browser shows, says how it ended. One without a name of its own
+/// does where it has frames: other outputs need not write files.
 void Run::keepStatus() {
-    if (!hasFilesByName() || hasSummary) return;
+    if (hasSummary || (!hasFilesByName() && outputs.empty())) return;
     statusFile = std::make_shared<RunStatusFile>(name);
     outputs.push_back({.write =
                            [this] {
@@ -304,6 +305,9 @@ void Run::keepStatus() {
 void Run::writeStatus(bool isComplete) const {
     if (isSilentRank()) return;
     try {
+        if (!hasFilesByName() && !std::filesystem::exists(name + ".pvd") &&
+            !std::filesystem::exists(name + "-fields.h5"))
+            return;
         SummaryRows rows;
         RunStatus now = status(isComplete);
         // Also of a run in parts, whose end was not set: it leaves the same file.

@@ -9,6 +9,8 @@
 
 #include "BuildFolders.h"
 #include "Kernel/Output/EnergyFile.h"
+#include "Kernel/Output/ParaViewOutput.h"
+#include "Kernel/Simulation/OutputForm.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "SelfTests/Scenes/SettlingBox.h"
@@ -41,6 +43,12 @@ struct Outside : scenes::SettlingBox<Rough> {
     [[nodiscard]] std::string told() const { return contentOf(file); }
     std::function<void(Outside&)> atHalf;
     std::string file;
+};
+
+/// An output without files.
+struct Counted : RemembersNothing {
+    void write(const Scene& /*scene*/) { ++count; }
+    int count = 0;
 };
 
 support::ProgramResult show(const TestFolder& folder) {
@@ -115,7 +123,25 @@ TEST(RunStatus, ofADriverThatStepsByItself) {
     EXPECT_TRUE(contains(scene.told(), "\nstate,at its end,\n"));
 }
 
-/// A scene whose files have no name of their own, or that has none, writes nothing.
+/// Without a name of its own, where it has frames: they have one, too.
+TEST(RunStatus, ofARunWithoutAName) {
+    const TestFolder folder;
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder.path());
+    for (const bool hasFrames : {false, true}) {
+        scenes::SettlingBox<Rough> scene(1);
+        scene.setQuiet();
+        scene.setTimeMax(10 * dt);
+        scene.addOutput(Counted{});
+        if (hasFrames) scene.addOutput(ParaViewOutput());
+        scene.solve();
+        EXPECT_EQ(std::filesystem::exists("pendular-summary.csv"), hasFrames);
+    }
+    EXPECT_TRUE(contains(contentOf("pendular-summary.csv"), "\nstate,at its end,\n"));
+    std::filesystem::current_path(before);
+}
+
+/// A scene without files writes nothing.
 TEST(RunStatus, ofARunWithoutFilesThereIsNone) {
     const TestFolder folder;
     scenes::SettlingBox<Rough> scene(1);
