@@ -37,9 +37,9 @@ void lookAtDensity(const ContactLaws& laws, std::size_t species, double radius, 
         found.push_back(grains + "no solid is as light; 1 g/mm^3 is 1e6 kg/m^3, and 1 t/mm^3 is 1e12 kg/m^3");
 }
 
-/// The softest grains that are used, beads of hydrogel, have some 1e4 Pa.
+/// The softest grains that are used, beads of hydrogel, have some 1e4 Pa; softened ones have more.
 void lookAtModuli(const ContactLaws& laws, int species, Sentences& found) {
-    constexpr double softest = 1000;  // Pa
+    constexpr double softest = 5000;  // Pa
     for (const FieldValue& field : laws.fields(species, species)) {
         const bool isOfNormalLaw = field.name == "effectiveElasticModulus" || field.name == "loadingModulus";
         if (!isOfNormalLaw || !(field.value > 0 && field.value < softest)) continue;
@@ -52,7 +52,7 @@ void lookAtModuli(const ContactLaws& laws, int species, Sentences& found) {
 
 /// The largest surface tension of a liquid is that of molten tungsten, 2.5 N/m; the work of adhesion of two
 /// surfaces of diamond some 20 J/m^2.
-void lookAtSurface(const ContactLaws& laws, int a, int b, Sentences& found) {
+void lookAtSurface(const ContactLaws& laws, int species, Sentences& found) {
     struct Most {
         std::string_view name, unit;
         double most;
@@ -61,14 +61,11 @@ void lookAtSurface(const ContactLaws& laws, int a, int b, Sentences& found) {
     constexpr Most surfaces[] = {
         {"surfaceTension", "N/m", 3, "no liquid has as much; 1 mN/m is 0.001 N/m, and water has 0.072 N/m"},
         {"workOfAdhesion", "J/m^2", 20, "no solids have as much; 1 mJ/m^2 is 0.001 J/m^2"}};
-    for (const FieldValue& field : laws.fields(a, b))
-        for (const Most& surface : surfaces) {
-            if (field.name != surface.name || !(field.value > surface.most)) continue;
-            const std::string of =
-                a == b ? fmt::format("species {}", a) : fmt::format("species {} and {}", a, b);
-            found.push_back(fmt::format("{}: {} = {:.4g} {}: {}", of, field.name, field.value, surface.unit,
-                                        surface.hint));
-        }
+    for (const FieldValue& field : laws.fields(species, species))
+        for (const Most& surface : surfaces)
+            if (field.name == surface.name && field.value > surface.most)
+                found.push_back(fmt::format("species {}: {} = {:.4g} {}: {}", species, field.name,
+                                            field.value, surface.unit, surface.hint));
 }
 
 /// The volume (m^3) of the bridges of a pair of species; empty where it follows from films.
@@ -153,7 +150,7 @@ std::vector<std::string> likelySlips(const ContactLaws& laws, const GrainSizes& 
         if (!hasUnits(ofSpecies)) continue;
         lookAtDensity(laws, static_cast<std::size_t>(a), ofSpecies.largest, found);
         lookAtModuli(laws, a, found);
-        lookAtSurface(laws, a, a, found);
+        lookAtSurface(laws, a, found);
     }
     lookAtBridges(laws, sizes, walls, found);
     lookAtMeshes(sizes, walls, found);
