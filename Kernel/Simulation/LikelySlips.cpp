@@ -106,7 +106,7 @@ double longest(const Vector<double>& lengths) { return std::max({lengths.x, leng
 /// (Where no grains are there yet, only a mesh that no scene could fill is told of.)
 void lookAtMesh(std::size_t number, double length, const GrainSizes& sizes, double largest, double smallest,
                 Sentences& found) {
-    constexpr double mostDiameters = 1000, mostWithoutGrains = 1e4, leastPartOfIt = 0.02;
+    constexpr double mostDiameters = 1000, mostWithoutGrains = 5000, leastPartOfIt = 0.002;
     const double ofGrains = longest(sizes.highest - sizes.lowest), diameter = 2 * largest;
     const bool areThere = ofGrains >= 0;
     const bool isLarge = areThere ? length > mostDiameters * diameter && ofGrains < leastPartOfIt * length
