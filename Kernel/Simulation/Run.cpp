@@ -243,7 +243,8 @@ void Run::writeOutputs(bool atEnd) {
     if (due.empty() && !own) return;
     const StepTimes::Within spent(times, StepTimes::Part::Output);
     write(due, own);
-    if (!own && statusFile && statusFile->isDue()) writeStatus(false);  // else it was one of them
+    if (!own && statusFile && statusFile->isDue())
+        writeStatus(StatusOf::RunOnItsWay);  // else it was one of them
 }
 
 std::vector<const Run::KeptOutput*> Run::dueOutputs(bool atEnd, bool own) {
@@ -296,25 +297,27 @@ void Run::keepStatus() {
     statusFile = std::make_shared<RunStatusFile>(name);
     outputs.push_back({.write =
                            [this] {
-                               if (statusFile->isDue()) writeStatus(false);
+                               if (statusFile->isDue()) writeStatus(StatusOf::RunOnItsWay);
                            },
-                       .complete = [this] { writeStatus(true); },
+                       .complete = [this] { writeStatus(StatusOf::CompleteRun); },
                        .inParts = true});
 }
 
-void Run::writeStatus(bool isComplete) const {
+void Run::writeStatus(StatusOf when) const {
     if (isSilentRank()) return;
     try {
         if (!hasFilesByName() && !std::filesystem::exists(name + ".pvd") &&
             !std::filesystem::exists(name + "-fields.h5"))
             return;
         SummaryRows rows;
-        RunStatus now = status(isComplete);
+        RunStatus now = status(when != StatusOf::RunOnItsWay);
         // Also of a run in parts, whose end was not set: it leaves the same file.
         if (now.state == RunStatus::atItsEnd) now.endTime = now.time;
         now.addTo(rows);
-        addToStatus(rows, isComplete);
-        statusFile->write(rows);
+        if (when == StatusOf::LeftScene)  // it may be in the middle of a change
+            for (const std::string& warning : logger.warnings()) rows.add("warning", warning);
+        else addToStatus(rows, when == StatusOf::CompleteRun);
+        statusFile->write(rows, when == StatusOf::RunOnItsWay);
     } catch (const std::exception&) {}  // what a run computes does not depend on it
 }
 

@@ -301,7 +301,9 @@ private:
         return restarts.kept || (!outputs.empty() && name != unnamed);
     }
     void keepStatus();
-    void writeStatus(bool isComplete) const;
+    enum class StatusOf { RunOnItsWay, CompleteRun, LeftScene };
+    void writeStatus(StatusOf when) const;
+    void noteThatItIsLeft();
     [[nodiscard]] std::vector<std::filesystem::path> withoutThoseOfOthers(
         std::vector<std::filesystem::path> former) const;
     void tellWarnings(bool atEnd) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <mutex>
 #include <set>
 #include <utility>
@@ -162,14 +163,26 @@ void Run::leaveCourse() {
     ended = begun;
 }
 
+/// Why it ends where its program leaves it: by an exception that unwinds, or as it pleases.
+void Run::noteThatItIsLeft() {
+    if (!stopped.empty()) return;
+    if (std::uncaught_exceptions() > 0) {
+        stopped = fmt::format("an error of its program ended it at {:.6g} s", getTime());
+    } else if (timeMaxIsSet && steps < stepAt(timeMax)) {
+        stopped = fmt::format("its program left it at {:.6g} s", getTime());
+        askedToStop = true;
+    }
+}
+
+/// Also of a driver that steps by itself and has not called completeAll().
 void Run::completeLeftRun() noexcept {
-    if (!course) return;
+    const bool isOpen = statusFile && statusFile->isOpen();
+    if (!course && !isOpen) return;
     try {
-        if (timeMaxIsSet && steps < stepAt(timeMax) && stopped.empty()) {
-            stopped = fmt::format("its program left it at {:.6g} s", getTime());
-            askedToStop = true;
-        }
+        noteThatItIsLeft();
+        if (!course) return writeStatus(StatusOf::LeftScene);
     } catch (...) {}  // no memory: it says less
+    if (!course) return;
     completeWhatCanBe();
     leaveCourse();
 }
@@ -190,7 +203,7 @@ void Run::beginFiles() {
     if (!isRestarted() && !isSilentRank()) former = withoutThoseOfOthers(std::move(former));
     SetAside aside(std::move(former));
     if (!isRestarted()) writeAll();
-    else if (statusFile) writeStatus(false);
+    else if (statusFile) writeStatus(StatusOf::RunOnItsWay);
     if (keepsOther) writeRestart(restartFile());
     aside.remove();
 }

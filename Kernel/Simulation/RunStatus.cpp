@@ -22,11 +22,12 @@ RunStatusFile::RunStatusFile(const std::string& run) : path(SummaryFile::pathOf(
 
 bool RunStatusFile::isDue() const { return Clock::now() >= next; }
 
-void RunStatusFile::write(const SummaryRows& rows) {
+void RunStatusFile::write(const SummaryRows& rows, bool isInterim) {
     next = Clock::now() + std::chrono::seconds(1);
     CsvFile file(path, "quantity,value,unit");
     rows.write(file);
     file.close();
+    open = isInterim;
 }
 
 std::string programOfSummary(const std::string& run) {

@@ -28,14 +28,17 @@ public:
     explicit RunStatusFile(const std::string& run);
     /// Whether an interim state is to be written.
     [[nodiscard]] bool isDue() const;
+    /// Whether an interim state was written last.
+    [[nodiscard]] bool isOpen() const { return open; }
     /// Throws InputError.
-    void write(const SummaryRows& rows);
+    void write(const SummaryRows& rows, bool isInterim);
 
 private:
     using Clock = std::chrono::steady_clock;
 
     std::filesystem::path path;
     Clock::time_point next = Clock::now();
+    bool open = false;
 };
 
 /// The program that wrote the summary of this run (its setName()); empty where nothing tells.

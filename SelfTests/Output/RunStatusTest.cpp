@@ -123,6 +123,23 @@ TEST(RunStatus, ofADriverThatStepsByItself) {
     EXPECT_TRUE(contains(scene.told(), "\nstate,at its end,\n"));
 }
 
+/// It is left without completeAll(): by its program, or by an error of that.
+TEST(RunStatus, ofADriverThatStepsAndIsLeft) {
+    for (const bool isError : {false, true}) {
+        const TestFolder folder;
+        try {
+            Outside scene(folder);
+            scene.initialise();
+            scene.writeAll();
+            scene.step(3);
+            if (isError) throw std::runtime_error("no more");
+        } catch (const std::runtime_error&) {}
+        const std::string told = contentOf(folder.name() + "-summary.csv");
+        EXPECT_TRUE(contains(told, isError ? "\nstate,stopped by an error,\nreason,an error of its program "
+                                           : "\nstate,asked to stop,\nreason,its program left it at "));
+    }
+}
+
 /// Without a name of its own, where it has frames: they have one, too.
 TEST(RunStatus, ofARunWithoutAName) {
     const TestFolder folder;

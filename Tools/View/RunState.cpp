@@ -92,8 +92,7 @@ void describeSilence(State& state, const RunFiles& run) {
     state.reason = state.summary ? "it has said nothing of its end: it was killed, or runs on another machine"
                    : isStarted
                        ? "it has no summary, and so nothing tells how it ended: it was killed at its "
-                         "start, an earlier version made it, or a program that steps by itself and "
-                         "does not call completeAll()"
+                         "start, or an earlier version made it"
                        : "it has not been started: it waited in a queue, and was taken from it, or its "
                          "server ended; resume it to start it";
 }
