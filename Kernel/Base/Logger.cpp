@@ -1,5 +1,6 @@
 #include "Kernel/Base/Logger.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <mutex>
@@ -43,6 +44,13 @@ void writeToLog(std::string_view text, LogLevel level) noexcept {
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
     std::clearerr(stderr);
+}
+
+/// Without the full stop: a summary has a sentence without it.
+void Logger::remember(std::string_view warning) const {
+    constexpr std::size_t most = 100;
+    if (warning.ends_with('.')) warning.remove_suffix(1);
+    if (given.size() < most && std::ranges::find(given, warning) == given.end()) given.emplace_back(warning);
 }
 
 void Logger::write(LogLevel level, std::string line) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace pendular {
 
@@ -46,11 +48,20 @@ public:
     template <class... Values>
     void operator()(LogLevel level, LogText<std::type_identity_t<const Values&>...> text,
                     const Values&... values) const {
-        if (quiet || level > shown || level == LogLevel::None) return;
+        if (level != LogLevel::Warn && !shows(level)) return;
         try {
-            write(level, fmt::format(text.text, values...));
+            std::string line = fmt::format(text.text, values...);
+            if (level == LogLevel::Warn) remember(line);
+            show(level, std::move(line));
         } catch (const std::exception&) {}  // no memory: the line is lost, not the run
     }
+    /// Shows a line that is not remembered: a warning that the summary of a run words by itself.
+    void show(LogLevel level, std::string line) const {
+        if (shows(level)) write(level, std::move(line));
+    }
+    /// The warnings that it was given, also those that a quiet logger did not show, each once: the summary of
+    /// a run has them. No more than the first hundred.
+    [[nodiscard]] const std::vector<std::string>& warnings() const { return given; }
     /// Shows lines up to this level. Info at first; None: none.
     void setLevel(LogLevel most) { shown = most; }
     [[nodiscard]] LogLevel getLevel() const { return shown; }
@@ -59,10 +70,15 @@ public:
     [[nodiscard]] bool isQuiet() const { return quiet; }
 
 private:
+    [[nodiscard]] bool shows(LogLevel level) const {
+        return !quiet && level <= shown && level != LogLevel::None;
+    }
+    void remember(std::string_view warning) const;
     static void write(LogLevel level, std::string line);
 
     LogLevel shown = LogLevel::Info;
     bool quiet = false;
+    mutable std::vector<std::string> given;
 };
 
 }  // namespace pendular

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Particles/MovingBodies.h"
@@ -81,28 +83,36 @@ PendularState pendularState(const Scene& scene, bool withOverlaps) {
     return found;
 }
 
-std::vector<std::string> PendularState::warnings() const {
-    std::vector<std::string> found;
+std::vector<RunWarning> PendularState::kindsOfWarnings() const {
+    std::vector<RunWarning> found;
     constexpr double usualDensity = 0.6;  // of a random packing
     if (saturation(usualDensity) > 0.1)
-        found.push_back(fmt::format(
-            "liquid would fill {:.3g} % of the pores of a packing of density 0.6; above some 10 % "
-            "forces are not those of separate bridges",
-            100 * saturation(usualDensity)));
-    if (overlappingShare > 0)
         found.push_back(
-            fmt::format("{:.3g} % of the bridges meet another one at a grain; their forces are "
-                        "not those of separate bridges",
-                        100 * overlappingShare));
+            {"saturation", fmt::format("liquid would fill {:.3g} % of the pores of a packing of density 0.6; "
+                                       "above some 10 % forces are not those of separate bridges",
+                                       100 * saturation(usualDensity))});
+    if (overlappingShare > 0)
+        found.push_back({"bridges that meet",
+                         fmt::format("{:.3g} % of the bridges meet another one at a grain; their forces are "
+                                     "not those of separate bridges",
+                                     100 * overlappingShare)});
     if (bridgesForm && shareInFilms > 0.2)
         found.push_back(
-            fmt::format("{:.3g} % of the liquid is in films; where grains touch liquidBridgeVolumeMax is too "
-                        "small for so much liquid",
-                        100 * shareInFilms));
+            {"share in films", fmt::format("{:.3g} % of the liquid is in films; where grains touch "
+                                           "liquidBridgeVolumeMax is too small for so much liquid",
+                                           100 * shareInFilms)});
     if (thickFilms > 0)
-        found.push_back(fmt::format(
-            "{} grains have a film thicker than 0.1 of their radius; contacts do not feel it", thickFilms));
+        found.push_back(
+            {"thick films",
+             fmt::format("{} grains have a film thicker than 0.1 of their radius; contacts do not feel it",
+                         thickFilms)});
     return found;
+}
+
+std::vector<std::string> PendularState::warnings() const {
+    std::vector<std::string> sentences;
+    for (RunWarning& warning : kindsOfWarnings()) sentences.push_back(std::move(warning.sentence));
+    return sentences;
 }
 
 }  // namespace pendular

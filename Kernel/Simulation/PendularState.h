@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "Kernel/Simulation/RunWarning.h"
 #include "Kernel/Simulation/Scene.h"
 
 namespace pendular {
@@ -24,7 +25,8 @@ struct PendularState {
     [[nodiscard]] double saturation(double solidFraction) const {
         return liquidOverSolid * solidFraction / (1 - solidFraction);
     }
-    /// Sentences without commas.
+    [[nodiscard]] std::vector<RunWarning> kindsOfWarnings() const;
+    /// Their sentences, without commas.
     [[nodiscard]] std::vector<std::string> warnings() const;
 };
 

@@ -9,6 +9,7 @@
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/SilentRank.h"
 #include "Kernel/Files/FileName.h"
+#include "Kernel/Simulation/RunStatus.h"
 #include "Kernel/Simulation/RunWithin.h"
 #include "Kernel/Species/Field.h"
 #include "Kernel/State/RestartFile.h"
@@ -242,6 +243,8 @@ void Run::writeOutputs(bool atEnd) {
     if (due.empty() && !own) return;
     const StepTimes::Within spent(times, StepTimes::Part::Output);
     write(due, own);
+    if (!own && statusFile && statusFile->isDue())
+        writeStatus(StatusOf::RunOnItsWay);  // else it was one of them
 }
 
 std::vector<const Run::KeptOutput*> Run::dueOutputs(bool atEnd, bool own) {
@@ -258,6 +261,7 @@ std::vector<const Run::KeptOutput*> Run::dueOutputs(bool atEnd, bool own) {
 
 void Run::prepareOutputs() {
     lockName();
+    keepStatus();
     for (std::size_t k = 0; k < outputs.size(); ++k)  // one may add another one
         if (outputs[k].prepare) outputs[k].prepare();
 }
@@ -271,6 +275,69 @@ void Run::completeAll() {
     complete();
 }
 
+RunStatus Run::status(bool isComplete) const {
+    const bool hasStopped = !stopped.empty(),
+               isAtEnd =
+                   isComplete ||
+                   (!course && ((timeMaxIsSet && getTime() >= timeMax * (1 - 1e-12)) || !continueSolve()));
+    RunStatus now;
+    now.time = getTime(), now.timeStep = timeStep, now.steps = steps;
+    now.state = hasStopped ? (askedToStop ? RunStatus::wasAskedToStop : RunStatus::hasFailed)
+                : isAtEnd  ? RunStatus::atItsEnd
+                           : RunStatus::onItsWay;
+    now.reason = stopped;
+    now.endTime = timeMax;
+    return now;
+}
+
+/// A run with files of its name, which the browser shows, says how it ended. One without a name of its own
+/// does where it has frames: other outputs need not write files.
+void Run::keepStatus() {
+    if (hasSummary || (!hasFilesByName() && outputs.empty())) return;
+    statusFile = std::make_shared<RunStatusFile>(name);
+    outputs.push_back({.write =
+                           [this] {
+                               if (statusFile->isDue()) writeStatus(StatusOf::RunOnItsWay);
+                           },
+                       .complete = [this] { writeStatus(StatusOf::CompleteRun); },
+                       .inParts = true});
+}
+
+void Run::writeStatus(StatusOf when) const {
+    if (isSilentRank()) return;
+    try {
+        if (!hasFilesByName() && !std::filesystem::exists(name + ".pvd") &&
+            !std::filesystem::exists(name + "-fields.h5"))
+            return;
+        SummaryRows rows;
+        RunStatus now = status(when != StatusOf::RunOnItsWay);
+        // Also of a run in parts, whose end was not set: it leaves the same file.
+        if (now.state == RunStatus::atItsEnd) now.endTime = now.time;
+        now.addTo(rows);
+        if (when == StatusOf::LeftScene)  // it may be in the middle of a change
+            for (const std::string& warning : logger.warnings()) rows.add("warning", warning);
+        else addToStatus(rows, when == StatusOf::CompleteRun);
+        statusFile->write(rows, when == StatusOf::RunOnItsWay);
+    } catch (const std::exception&) {}  // what a run computes does not depend on it
+}
+
+bool Run::hasWarnedOf(std::string_view kind) const { return std::ranges::find(told, kind) != told.end(); }
+
+void Run::warnOnce(const std::vector<RunWarning>& found) const {
+    for (const RunWarning& warning : found) {
+        if (hasWarnedOf(warning.kind)) continue;
+        told.push_back(warning.kind);
+        logger.show(LogLevel::Warn, warning.sentence + '.');
+    }
+}
+
+void Run::tellWarnings(bool atEnd) const {
+    if (!warnsOnItsWay()) return;
+    try {
+        warnOnce(warningsSoFar(atEnd));
+    } catch (const std::exception&) {}  // a warning never ends a run
+}
+
 void Run::complete() {
     onFirstRank([this] { completeOutputs(); });
     completeOutput();
@@ -278,6 +345,7 @@ void Run::complete() {
 
 void Run::completeOutputs() {
     if (isSilentRank()) return;
+    tellWarnings(true);
     for (const KeptOutput& output : outputs)
         if (output.complete) output.complete();
 }
@@ -285,6 +353,7 @@ void Run::completeOutputs() {
 /// Completes the outputs as far as that is possible: the error that ends the run is the one to tell.
 void Run::completeWhatCanBe() {
     if (isSilentRank()) return;
+    if (!isShared()) tellWarnings(false);
     for (const KeptOutput& output : outputs) {
         try {
             if (output.complete) output.complete();

@@ -18,10 +18,15 @@
 #include "Kernel/Simulation/OutputInterval.h"
 #include "Kernel/Simulation/Progress.h"
 #include "Kernel/Simulation/RunControl.h"
+#include "Kernel/Simulation/RunWarning.h"
 #include "Kernel/State/RestartFile.h"
 #include "Kernel/Step/StepTimes.h"
 
 namespace pendular {
+
+class RunStatusFile;
+struct RunStatus;
+class SummaryRows;
 
 /// The course of a simulation, whatever its species: its steps, outputs and restart files, and what ends it.
 /// Simulation derives from it.
@@ -79,8 +84,12 @@ public:
     [[nodiscard]] std::filesystem::path restartFile() const { return restartFileOf(name); }
     /// Writes the state after the last step. Throws InputError if that fails, and in visitState().
     void writeRestart(const std::filesystem::path& file);
-    /// Shows no progress, no warning and no summary, and nothing of the logger.
+    /// Shows no progress, no warning and no summary, and nothing of the logger. What it would have warned of
+    /// is in NAME-summary.csv all the same.
     void setQuiet(bool beQuiet = true) { logger.setQuiet(beQuiet); }
+    /// Shows how far the run is, unless it is quiet: yes at first.
+    void setShowsProgress(bool show) { showProgress = show; }
+    [[nodiscard]] bool showsProgress() const { return showProgress; }
     /// Measures the time by part of the step.
     void measureStepTimes(bool measure = true) { times.measure(measure); }
 
@@ -103,6 +112,15 @@ public:
     /// Whether the run has come to its end, or was stopped: its files are complete, and it goes no further.
     [[nodiscard]] bool hasEnded() const { return ended; }
     [[nodiscard]] const StepTimes& stepTimes() const { return times; }
+    /// How far the run is, or how it ended, for its summary.
+    /// @param isComplete its files are complete: nothing more is computed
+    [[nodiscard]] RunStatus status(bool isComplete) const;
+    /// Whether warnOnce() was given a warning of this kind.
+    [[nodiscard]] bool hasWarnedOf(std::string_view kind) const;
+    /// Warns of each kind once in the run.
+    void warnOnce(const std::vector<RunWarning>& found) const;
+    /// Called by RunSummary: it writes the summary of the run, and may print it, with warnings, at the end.
+    void leaveSummary(bool isPrinted) { hasSummary = true, summaryIsPrinted |= isPrinted; }
 
     /// Sets up, and steps until the maximum time. A run that cannot go on ends with a RunError; the grains
     /// and contacts at the end of the last whole step are then in NAME-last-state.csv and
@@ -204,6 +222,10 @@ protected:
     [[nodiscard]] StepTimes& stepTimer() { return times; }
     /// Called by the destructor of the class that has all of the scene.
     void completeLeftRun() noexcept;
+    /// Whether somebody may read what the run warns of: it is not quiet, and prints no summary at its end.
+    [[nodiscard]] bool warnsOnItsWay() const { return !isQuiet() && !summaryIsPrinted; }
+    /// Whether what is warned of is shown, or kept in a summary.
+    [[nodiscard]] bool keepsWarnings() const { return !isQuiet() || hasSummary || hasFilesByName(); }
 
 private:
     void visitIntervals(StateArchive& archive);
@@ -230,6 +252,10 @@ private:
     virtual void writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contacts,
                                 const std::string& remark) = 0;
     [[nodiscard]] virtual RunNumbers numbers() const = 0;
+    /// What the run has met that its laws are not made for. Called where all of it is on this rank.
+    [[nodiscard]] virtual std::vector<RunWarning> warningsSoFar(bool atEnd) const = 0;
+    /// The grains and the warnings of a short summary; also called where a rank has some of the grains only.
+    virtual void addToStatus(SummaryRows& rows, bool atEnd) const = 0;
     /// Whether several ranks do this run together.
     [[nodiscard]] virtual bool isShared() const { return false; }
     /// Whether each has its own grains only.
@@ -271,6 +297,16 @@ private:
     [[nodiscard]] RunStopped stop();
     void completeOutputs();
     void completeWhatCanBe();
+    [[nodiscard]] bool hasFilesByName() const {  // of outputs and restart files
+        return restarts.kept || (!outputs.empty() && name != unnamed);
+    }
+    void keepStatus();
+    enum class StatusOf { RunOnItsWay, CompleteRun, LeftScene };
+    void writeStatus(StatusOf when) const;
+    void noteThatItIsLeft();
+    [[nodiscard]] std::vector<std::filesystem::path> withoutThoseOfOthers(
+        std::vector<std::filesystem::path> former) const;
+    void tellWarnings(bool atEnd) const;
     [[nodiscard]] bool isOwnRestartFile(const std::filesystem::path& file) const;
     [[nodiscard]] std::string withLastState(const std::string& sentence);
 
@@ -282,6 +318,9 @@ private:
     bool timeMaxIsSet = false;     // else the run in parts has no end, and timeMax is that of the part
     std::size_t saveCount = 0;
     bool leavesGrains = false;
+    bool showProgress = true, hasSummary = false, summaryIsPrinted = false;
+    mutable std::vector<std::string> told;      // kinds of warnings
+    std::shared_ptr<RunStatusFile> statusFile;  // of a run without RunSummary
     std::size_t steps = 0, firstStep = 0;
     std::size_t stepsBefore = 0;      // those with another time step
     double timeBefore = 0;            // s, when these had been done

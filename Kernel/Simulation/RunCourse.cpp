@@ -2,16 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <mutex>
+#include <set>
 #include <utility>
 
 #include "Kernel/Base/FullStop.h"
+#include "Kernel/Base/Host.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Base/SilentRank.h"
 #include "Kernel/Files/FileFault.h"
 #include "Kernel/Files/FileLock.h"
 #include "Kernel/Files/SetAside.h"
 #include "Kernel/Ranks/ProgramRanks.h"
 #include "Kernel/Simulation/Program.h"
+#include "Kernel/Simulation/RunStatus.h"
 #include "Kernel/Simulation/RunWithin.h"
 #include "Kernel/Species/Field.h"
 
@@ -114,7 +120,7 @@ void Run::beginRun() {
     }
     course->control.follow(restarts);
     endingWithErrors([&] { beginFiles(); });
-    if (!isQuiet())
+    if (!isQuiet() && showsProgress())
         course->progress.emplace(std::filesystem::path(name).filename().string(), timeMax, getTime(), steps);
 }
 
@@ -157,7 +163,25 @@ void Run::leaveCourse() {
     ended = begun;
 }
 
+/// Why it ends where its program leaves it: by an exception that unwinds, or as it pleases.
+void Run::noteThatItIsLeft() {
+    if (!stopped.empty()) return;
+    if (std::uncaught_exceptions() > 0) {
+        stopped = fmt::format("an error of its program ended it at {:.6g} s", getTime());
+    } else if (timeMaxIsSet && steps < stepAt(timeMax)) {
+        stopped = fmt::format("its program left it at {:.6g} s", getTime());
+        askedToStop = true;
+    }
+}
+
+/// Also of a driver that steps by itself and has not called completeAll().
 void Run::completeLeftRun() noexcept {
+    const bool isOpen = statusFile && statusFile->isOpen();
+    if (!course && !isOpen) return;
+    try {
+        noteThatItIsLeft();
+        if (!course) return writeStatus(StatusOf::LeftScene);
+    } catch (...) {}  // no memory: it says less
     if (!course) return;
     completeWhatCanBe();
     leaveCourse();
@@ -165,8 +189,7 @@ void Run::completeLeftRun() noexcept {
 
 /// Two runs of one name would write into each other's files.
 void Run::lockName() {
-    const bool writesByName = restarts.kept || (!outputs.empty() && name != unnamed);
-    if ((underWay & Within::Solving) == 0 || !writesByName) return;
+    if ((underWay & Within::Solving) == 0 || !hasFilesByName()) return;
     course->lock.emplace(name + ".pendular-lock", fmt::format("The files {}-* are", name),
                          "give this run another name or folder", restarts.kept);
 }
@@ -177,10 +200,58 @@ void Run::beginFiles() {
     const bool keepsOther = restarts.kept && !(isRestarted() && isOwnRestartFile(restartSource));
     std::vector<std::filesystem::path> former = std::move(replaced);
     if (keepsOther) former.push_back(restartFile());
+    if (!isRestarted() && !isSilentRank()) former = withoutThoseOfOthers(std::move(former));
     SetAside aside(std::move(former));
     if (!isRestarted()) writeAll();
+    else if (statusFile) writeStatus(StatusOf::RunOnItsWay);
     if (keepsOther) writeRestart(restartFile());
     aside.remove();
+}
+
+/// Warns, once in a program, where another one wrote the files of a run of this name.
+/// @param kept where its restart file is from now on; empty: it was left
+static void warnOfOtherProgram(const Logger& logger, const std::string& run, const std::string& program,
+                               const std::string& kept) {
+    static std::mutex access;
+    static std::set<std::string> told;
+    {
+        const std::scoped_lock lock(access);
+        if (!told.insert(run).second) return;
+    }
+    logger(
+        LogLevel::Warn,
+        "The files {}-* are of another program, {}, and {} now writes files of the same names{}; give each "
+        "program a name or a folder of its own.",
+        run, program, programName(),
+        kept.empty() ? std::string() : fmt::format(" (its restart file is kept as {})", kept));
+}
+
+/// The other program that wrote the files of a run of this name; empty where there is none.
+static std::string otherWriterOf(const std::string& run) {
+    std::string program = programOfSummary(run);
+    if (program == programName()) program.clear();
+    return program;
+}
+
+/// Gives restart files of other programs, which this run would replace, another name. Returns the files that
+/// are this program's own.
+std::vector<std::filesystem::path> Run::withoutThoseOfOthers(
+    std::vector<std::filesystem::path> former) const {
+    std::erase_if(former, [this](const std::filesystem::path& file) {
+        const std::string path = file.string();
+        constexpr std::size_t ending = std::string_view("-restart.h5").size();
+        if (path.size() < ending || restartFileOf(path.substr(0, path.size() - ending)) != file) return false;
+        const std::string run = path.substr(0, path.size() - ending), program = otherWriterOf(run);
+        if (program.empty()) return false;
+        const std::string kept = fmt::format("{}-restart-of-{}.h5", run, program);
+        std::error_code problem;
+        std::filesystem::rename(file, kept, problem);  // there may be none
+        warnOfOtherProgram(logger, run, program, problem ? std::string() : kept);
+        return !problem;
+    });
+    if (const std::string program = hasFilesByName() ? otherWriterOf(name) : std::string(); !program.empty())
+        warnOfOtherProgram(logger, name, program, {});
+    return former;
 }
 
 /// The step with which this time (s) is reached, with the time step as it is now.
@@ -252,8 +323,9 @@ void Run::stepUntil(const PartEnd& end) {
         const RunNumbers reached = numbers();  // of all ranks
         progress->finish(getTime(), steps, [&] { return reached; });
     }
-    if (stops || !goesOn || (timeMaxIsSet && steps >= stepAt(timeMax))) endRun(stops);
-    else gatherForDriver();
+    if (stops || !goesOn || (timeMaxIsSet && steps >= stepAt(timeMax))) return endRun(stops);
+    gatherForDriver();
+    if (!isShared()) tellWarnings(false);
 }
 
 void Run::endRun(bool stops) {
@@ -287,11 +359,14 @@ std::string Run::withLastState(const std::string& sentence) {
         return fmt::format("{}{}.", withoutFullStop(sentence), restart);
     }
     const std::string grains = name + "-last-state.csv", contacts = name + "-last-contacts.csv";
+    bool isCompleting = false;
     try {
         writeLastState(grains, contacts, sentence);
         writeAll();
+        isCompleting = true;
         completeOutputs();
     } catch (const std::exception& problem) {
+        if (!isCompleting) completeWhatCanBe();
         return fmt::format("{}; writing the last state failed: {}", withoutFullStop(sentence),
                            sentenceOf(problem));
     }

@@ -23,10 +23,11 @@
 #include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Ranks/GrainSharing.h"
+#include "Kernel/Simulation/DomainWarnings.h"
 #include "Kernel/Simulation/PendularState.h"
+#include "Kernel/Simulation/RunStatus.h"
 #include "Kernel/Simulation/Scene.h"
 #include "Kernel/Simulation/SceneCheck.h"
-#include "Kernel/Simulation/SceneDomain.h"
 #include "Kernel/Simulation/SummaryFile.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Friction/MindlinRollingTorsion.h"
@@ -36,41 +37,6 @@
 
 namespace pendular {
 namespace {
-
-GrainSizes sizes(const Scene& scene) { return {scene.particleHandler.store(), scene.laws().speciesCount()}; }
-
-std::vector<BrokenLimit> broken(const Scene& scene) {
-    return brokenLimits(scene.laws(), sizes(scene), scene.wallHandler);
-}
-
-std::size_t bridgesOut(const Scene& scene) {
-    return countBridgesOutOfDomain(scene.contacts(), scene.laws(), scene.particleHandler.store());
-}
-
-/// A sentence for each domain that the scene has left; no commas in it.
-std::vector<std::string> warnings(const Scene& scene, bool atEnd) {
-    std::vector<std::string> found;
-    const OverlapWatch overlaps = scene.contacts().overlaps();
-    const OverlapLimit limit = scene.laws().overlapLimit;
-    if (overlaps.countAbove() > 0)
-        found.push_back(fmt::format(
-            "{}: overlaps were above {} of the effective radius in {} evaluations of contacts and the "
-            "largest was {:.3g}; take stiffer grains or lower speeds and loads",
-            limit.law, limit.largest, overlaps.countAbove(), overlaps.largestOverlap()));
-    const CapillaryWatch numbers = scene.contacts().capillaryNumbers();
-    if (numbers.countAbove() > 0)
-        found.push_back(fmt::format(
-            "bridges were drawn at capillary numbers above the largestCapillaryNumber of their law in {} "
-            "evaluations and the largest was {:.3g}; they may have ruptured too early: set "
-            "largestCapillaryNumber to at least that",
-            numbers.countAbove(), numbers.largestNumber()));
-    for (const BrokenLimit& b : broken(scene))
-        found.push_back(fmt::format("{} ({} bridges now out of its domain)", b.text(), bridgesOut(scene)));
-    if (scene.movesLiquid())
-        for (std::string& sentence : pendularState(scene, atEnd).warnings())
-            found.push_back(std::move(sentence));
-    return found;
-}
 
 void addStepForError(SummaryRows& rows, const StepForError& chosen) {
     rows.addNumber("step for an error of", chosen.asked, "1");
@@ -87,19 +53,10 @@ void addStepForError(SummaryRows& rows, const StepForError& chosen) {
                  "that a bed whose friction sticks stays at rest, and that overlaps near 5 % are borne");
 }
 
-void addRun(SummaryRows& rows, const Scene& scene) {
-    const bool atEnd = scene.getTime() >= scene.getTimeMax() * (1 - 1e-12) || !scene.continueSolve();
-    const bool stopped = !scene.stopSentence().empty();
+void addRun(SummaryRows& rows, const Scene& scene, bool isComplete) {
     rows.add("name", scene.getName());
-    rows.add("state", stopped ? (scene.wasAskedToStop() ? "asked to stop" : "stopped by an error")
-                      : atEnd ? "at its end"
-                              : "on its way");
-    if (stopped) rows.add("reason", scene.stopSentence());
-    rows.addNumber("time", scene.getTime(), "s");
-    rows.addNumber("end time", scene.getTimeMax(), "s");
-    rows.add("steps", scene.getNumberOfTimeSteps());
+    scene.status(isComplete).addTo(rows);
     if (scene.getFirstStep() > 0) rows.add("restarted after steps", scene.getFirstStep());
-    rows.addNumber("time step", scene.getTimeStep(), "s");
     rows.addNumber("stability limit",
                    sceneStabilityLimit(scene.laws(), scene.grainSizes(scene.particleHandler.store()),
                                        scene.wallHandler, scene.scheme()),
@@ -182,7 +139,7 @@ void addDomain(SummaryRows& rows, const Scene& scene) {
     if (scene.laws().hasLargestCapillaryNumber)
         rows.add("evaluations above the largest capillary number",
                  scene.contacts().capillaryNumbers().countAbove());
-    if (!broken(scene).empty()) rows.add("bridges out of domain now", bridgesOut(scene));
+    if (hasBrokenLimits(scene)) rows.add("bridges out of domain now", bridgesOutOfDomain(scene));
 }
 
 void addTimes(SummaryRows& rows, const Scene& scene) {
@@ -216,9 +173,9 @@ void addSpecies(SummaryRows& rows, const ContactLaws& laws) {
     }
 }
 
-SummaryRows rowsOf(const Scene& scene) {
+SummaryRows rowsOf(const Scene& scene, bool isComplete) {
     SummaryRows rows;
-    addRun(rows, scene);
+    addRun(rows, scene, isComplete);
     addHealth(rows, scene);
     scene.addPartsTo(rows);
     addDomain(rows, scene);
@@ -228,7 +185,7 @@ SummaryRows rowsOf(const Scene& scene) {
 
 void writeFile(const Scene& scene, SummaryRows rows) {
     addSpecies(rows, scene.laws());
-    for (const std::string& warning : warnings(scene, false)) rows.add("warning", warning);
+    addWarningsTo(rows, scene, false);
     CsvFile file(SummaryFile::pathOf(scene.getName()), "quantity,value,unit");
     rows.write(file);
     file.close();
@@ -236,13 +193,16 @@ void writeFile(const Scene& scene, SummaryRows rows) {
 
 }  // namespace
 
-void RunSummary::prepare(Scene& scene) { scene.measureStepTimes(); }
+void RunSummary::prepare(Scene& scene) {
+    scene.measureStepTimes();
+    scene.leaveSummary(prints);
+}
 
 void RunSummary::write(const Scene& scene) {
     const Clock::time_point now = Clock::now();
     if (now < next) return;
     next = now + std::chrono::seconds(1);
-    SummaryRows rows = rowsOf(scene);
+    SummaryRows rows = rowsOf(scene, false);
     if (written)
         rows.addNumber("wall time since the summary before",
                        std::chrono::duration<double>(now - *written).count(), "s");
@@ -250,13 +210,18 @@ void RunSummary::write(const Scene& scene) {
     writeFile(scene, std::move(rows));
 }
 
+/// What was warned of before is repeated with the summary; the rest is warned of now, for who reads warnings
+/// alone (setLogSink()).
 void RunSummary::complete(const Scene& scene) {
-    const SummaryRows rows = rowsOf(scene);
+    const SummaryRows rows = rowsOf(scene, true);
     writeFile(scene, rows);
     if (!prints || scene.isQuiet()) return;
     std::string text = "Summary of the run\n" + rows.shown();
-    for (const std::string& warning : warnings(scene, true)) text += "Warning: " + warning + ".\n";
+    const std::vector<RunWarning> warnings = domainWarnings(scene, true);
+    for (const RunWarning& warning : warnings)
+        if (scene.hasWarnedOf(warning.kind)) text += "Warning: " + warning.sentence + ".\n";
     writeToLog(text);
+    scene.warnOnce(warnings);
 }
 
 }  // namespace pendular

@@ -8,11 +8,13 @@
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/Ranks/ProgramRanks.h"
+#include "Kernel/Simulation/DomainWarnings.h"
 #include "Kernel/Simulation/LastState.h"
 #include "Kernel/Simulation/ListedContacts.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneInside.h"
 #include "Kernel/Species/Field.h"
+#include "Kernel/Step/SummaryRows.h"
 
 namespace pendular {
 
@@ -82,6 +84,14 @@ void Scene::tellEvents() {
 RunNumbers Scene::numbers() const {
     if (inside->isDistributed()) return inside->numbersOfAll();
     return {particleHandler.getSize(), contacts().counts().acting, kineticEnergy(particleHandler.store())};
+}
+
+std::vector<RunWarning> Scene::warningsSoFar(bool atEnd) const { return domainWarnings(*this, atEnd); }
+
+void Scene::addToStatus(SummaryRows& rows, bool atEnd) const {
+    if (inside->isDistributed()) return;  // all ranks would have to count together
+    rows.add("grains", particleHandler.getSize());
+    addWarningsTo(rows, *this, atEnd);
 }
 
 void Scene::writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contactFile,

@@ -321,6 +321,8 @@ private:
     void advanceByStep(bool another) override;
     void tellEvents() override;
     [[nodiscard]] RunNumbers numbers() const override;
+    [[nodiscard]] std::vector<RunWarning> warningsSoFar(bool atEnd) const override;
+    void addToStatus(SummaryRows& rows, bool atEnd) const override;
     [[nodiscard]] bool isShared() const override;
     void onFirstRank(const std::function<void()>& write) override;
     [[nodiscard]] bool areGrainsOnRanks() const override;

@@ -189,22 +189,6 @@ std::string remarkOnFarGrains(const ParticleStore& grains) {
         largest);
 }
 
-std::string remarkOnDensities(const ContactLaws& laws, const ParticleStore& grains) {
-    constexpr double lightest = 0.5, heaviest = 23;  // of solids, g/cm^3
-    constexpr double largestRadius = 0.01;           // m; scenes without units have grains of some 1
-    for (std::size_t place = 0; place < grains.count(); ++place) {
-        const double radius = grains.translation[place].radius;
-        const std::uint16_t species = grains.species[place];
-        const double density = laws.density(species);
-        if (!(radius > 0 && radius < largestRadius) || density < lightest || density > heaviest) continue;
-        return fmt::format(
-            "{} has a radius of {:.3g} m, and its species {} a density of {:.3g} kg/m^3: if that is in "
-            "g/cm^3, 1 g/cm^3 is 1000 kg/m^3",
-            nameOfGrain(grains, grains.identity[place]), radius, species, density);
-    }
-    return {};
-}
-
 void refuseFarGrains(const ParticleStore& grains, double time) {
     const auto isFar = [](const TranslationRecord& grain) {
         return !isResolved(grain.position, grain.radius) && grain.radius > 0;  // no gap

@@ -31,9 +31,6 @@ void refuseFarFaces(const PeriodicBox& box, double smallestRadius);
 
 /// A sentence, without a full stop, where grains are so far away that steps may be rounded; else empty.
 std::string remarkOnFarGrains(const ParticleStore& grains);
-/// What is said of grains of millimetres whose density (kg/m^3) is that of a solid in g/cm^3; empty if there
-/// are none.
-std::string remarkOnDensities(const ContactLaws& laws, const ParticleStore& grains);
 
 /// Ends a run in which a grain has gone so far away that it is not resolved any more.
 void refuseFarGrains(const ParticleStore& grains, double time);

@@ -170,6 +170,7 @@ private:
     /// Whenever grains can have approached by a tenth of the smallest radius: nothing that lasts goes deeper
     /// unseen by more. It does not depend on when contacts are listed.
     void lookForDeepOverlaps(const ParticleStore& grains, double approach);
+    void warnOfOverlaps() const;
     /// Brings grains that have left a periodic scene back into it; at fixed steps, so that no bit depends on
     /// when contacts are listed.
     void bringBack(StepContext& step);

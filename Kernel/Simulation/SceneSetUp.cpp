@@ -8,6 +8,8 @@
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Motion/TimeIntegration.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
+#include "Kernel/Simulation/DomainWarnings.h"
+#include "Kernel/Simulation/LikelySlips.h"
 #include "Kernel/Simulation/PlaneScene.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneDomain.h"
@@ -186,21 +188,24 @@ void Scene::Inside::prepare() {
 
 void Scene::Inside::warn() const {
     Logger& logger = scene.logger;
-    if (scene.isQuiet()) return;
+    if (!scene.keepsWarnings()) return;
     if (laws().grainsAreDiscs())
         logger(LogLevel::Info,
                "Grains are discs: densities are by area (kg/m^2), masses pi r^2 rho, moments of inertia m "
                "r^2 / 2; volumes in outputs are those of spheres.");
     if (context.threads > processorCount())
-        logger(LogLevel::Warn, "{} threads share {} processors; the run is slower than with {}.",
-               context.threads, processorCount(), processorCount());
+        logger.show(LogLevel::Warn,  // a matter of this machine
+                    fmt::format("{} threads share {} processors; the run is slower than with {}.",
+                                context.threads, processorCount(), processorCount()));
     for (const BrokenLimit& broken : brokenLimits(laws(), checkedSizes, scene.wallHandler))
-        logger(LogLevel::Warn, "{}.", broken.text());
+        scene.warnOnce({warningOf(broken)});
     const ParticleStore& grains = scene.particleHandler.store();
-    for (const std::string& remark : {remarkOnFarGrains(grains), remarkOnDensities(laws(), grains)})
-        if (!remark.empty()) logger(LogLevel::Warn, "{}.", remark);
+    if (const std::string remark = remarkOnFarGrains(grains); !remark.empty())
+        logger(LogLevel::Warn, "{}.", remark);
+    for (const std::string& slip : likelySlips(laws(), checkedSizes, scene.wallHandler))
+        logger(LogLevel::Warn, "{}.", slip);
     warnOfEnergyGainOfSprings();
-    warnOfSeams();
+    if (!scene.isQuiet()) warnOfSeams();  // which may take a while
 }
 
 void Scene::Inside::warnOfEnergyGainOfSprings() const {

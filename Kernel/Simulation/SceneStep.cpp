@@ -1,6 +1,7 @@
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
+#include "Kernel/Simulation/DomainWarnings.h"
 #include "Kernel/Simulation/RankAgreement.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneInside.h"
@@ -173,7 +174,17 @@ void Scene::Inside::lookForDeepOverlaps(const ParticleStore& grains, double appr
     if (approachUnseen < 0.1 * context.smallestRadius) return;
     approachUnseen = 0;
     refuseFarGrains(grains, context.time);
+    warnOfOverlaps();
     refuseDeepOverlaps(contacts.store(), grains, box, laws(), context.time);
+}
+
+/// On several ranks, each of which has seen some contacts only, the end of the run tells.
+void Scene::Inside::warnOfOverlaps() const {
+    if (sharing || !scene.warnsOnItsWay() || contacts.ownOverlaps().countAbove() == 0 ||
+        scene.hasWarnedOf(kindOfOverlapWarning))
+        return;
+    if (const auto warning = overlapWarning(contacts.ownOverlaps(), laws().overlapLimit))
+        scene.warnOnce({*warning});
 }
 
 void Scene::Inside::refuseRunaway(double shift) const {

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "Kernel/Files/TextFile.h"
+#include "Kernel/Simulation/RunStatus.h"
 
 namespace pendular {
 
@@ -42,9 +44,10 @@ SummaryFile::SummaryFile(const std::filesystem::path& file) : path(file) {
 
 std::vector<std::string> SummaryFile::complaints() const {
     std::vector<std::string> found;
-    if (value("state") == "stopped by an error") found.push_back("it stopped: " + value("reason"));
-    for (const char* finite : {"time", "kinetic energy", "largest speed"})
-        if (!std::isfinite(number(finite))) found.push_back(fmt::format("its {} is not finite", finite));
+    if (value("state") == RunStatus::hasFailed) found.push_back("it stopped: " + value("reason"));
+    for (const char* finite : {"time", "kinetic energy", "largest speed"})  // a short summary has the first
+        if (!value(finite).empty() && !std::isfinite(number(finite)))
+            found.push_back(fmt::format("its {} is not finite", finite));
     for (const Row& row : all)
         if (row.unit == "J" && row.quantity != "kinetic energy" && !std::isfinite(numberIn(row.value)))
             found.push_back(fmt::format("its {} is not finite", row.quantity));
@@ -81,11 +84,13 @@ double SummaryFile::age() const {
 
 bool SummaryFile::isAboveLimit() const { return number("time step") > number("stability limit"); }
 bool SummaryFile::limitIsAccepted() const { return value("step above the stability limit") == "accepted"; }
-bool SummaryFile::isOnItsWay() const { return value("state") == "on its way"; }
+bool SummaryFile::isOnItsWay() const { return value("state") == RunStatus::onItsWay; }
 
 /// s, for which a run that is on its way may say nothing: ten times as long as it took from one summary to
-/// the next; at least a minute, for a busy machine, and an hour where there was one summary only.
+/// the next; at least a minute, for a busy machine, and an hour where there was one summary only. A short
+/// summary (RunStatus.h) does not tell: a run without outputs writes it at its start and at its end.
 double SummaryFile::longestSilence() const {
+    if (value("wall time").empty()) return std::numeric_limits<double>::infinity();
     const double interval = number("wall time since the summary before");
     return std::isfinite(interval) ? std::max(10 * interval, 60.0) : 3600;
 }

@@ -7,7 +7,8 @@
 
 namespace pendular {
 
-/// A summary that a run has written about itself (NAME-summary.csv, by RunSummary), read again.
+/// A summary that a run has written about itself (NAME-summary.csv), read again: that of RunSummary, or the
+/// short one of a run without it.
 class SummaryFile {
 public:
     static constexpr std::string_view ending = "-summary.csv";

@@ -25,11 +25,16 @@ public:
         rows.back().shown = withUnit(fmt::format("{:.4g}", value), unit).append(behind);
     }
 
-    /// Text with commas is quoted.
+    /// Text with commas is quoted. Sentences of others, as of a driver's own warnings, may have lines and
+    /// quotes: a row has neither.
     void write(CsvFile& file) const {
-        for (const Row& row : rows)
-            file.row(row.quantity, row.value.find(',') == row.value.npos ? row.value : '"' + row.value + '"',
-                     row.unit);
+        for (const Row& row : rows) {
+            std::string text = row.value;
+            for (char& letter : text)
+                if (letter == '\n' || letter == '\r') letter = ' ';
+                else if (letter == '"') letter = '\'';
+            file.row(row.quantity, text.find(',') == text.npos ? text : '"' + text + '"', row.unit);
+        }
     }
     /// Lines for eyes.
     [[nodiscard]] std::string shown() const {

@@ -139,7 +139,7 @@ def value(function, argument, objects):
 
 OF_OPERATORS = {"__eq__": (0,), "__exit__": (None, None, None), "__setattr__": ("mine", 1)}
 # What is not of a scene, or is for the package alone.
-LEFT_OUT = {"_pybind11_conduit_v1_", "_stop_all", "_set_log", "_set_explanation", "_fail_on_ranks", "stop"}
+LEFT_OUT = {"_pybind11_conduit_v1_", "_stop_all", "_set_log", "_set_program", "_set_explanation", "_fail_on_ranks", "stop"}
 
 
 def members():

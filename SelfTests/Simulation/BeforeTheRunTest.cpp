@@ -34,6 +34,7 @@
 #include "Kernel/Particles/PeriodicBox.h"
 #include "Kernel/Simulation/BridgeAdvice.h"
 #include "Kernel/Simulation/ChosenTimeStep.h"
+#include "Kernel/Simulation/DomainWarnings.h"
 #include "Kernel/Simulation/ListedContacts.h"
 #include "Kernel/Simulation/OverlapEstimate.h"
 #include "Kernel/Simulation/PendularState.h"
@@ -221,6 +222,15 @@ std::vector<std::pair<std::string, std::vector<std::pair<std::string, Call>>>> c
          {{"write", whole(plain<RunSummary>)},
           {"write alone", [](Scene& scene) { RunSummary().write(scene); }},
           {"complete alone", [](Scene& scene) { RunSummary().complete(scene); }}}},
+        {"Simulation/DomainWarnings.h",
+         {{"domainWarnings", [](Scene& scene) { static_cast<void>(domainWarnings(scene, true)); }},
+          {"addWarningsTo",
+           [](Scene& scene) {
+               SummaryRows rows;
+               addWarningsTo(rows, scene, false);
+           }},
+          {"bridgesOutOfDomain",
+           [](Scene& scene) { static_cast<void>(bridgesOutOfDomain(scene) + hasBrokenLimits(scene)); }}}},
         {"Simulation/PendularState.h",
          {{"pendularState", [](Scene& scene) { static_cast<void>(pendularState(scene, true)); }}}},
         {"Simulation/SumsOverRanks.h",

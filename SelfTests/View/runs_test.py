@@ -116,6 +116,20 @@ def test_each_end_of_a_run_is_told_as_it_was(serve, root, tmp_path):
     assert "cannot be started: No such file" in server.wait_for(second, "failed", "ended")["reason"]
 
 
+def test_runs_from_outside_the_repository_say_how_they_ended(serve, root):
+    """They have a name and an output, and no RunSummary."""
+    for kind, code in (("ends", 0), ("warned", 0), ("fails", 1), ("killed", -9)):
+        (root / kind).mkdir()
+        assert subprocess.run([os.environ["PENDULAR_VIEW_FRAMES"], "outside", str(root / kind), kind]).returncode == code
+    server = serve()
+    ends, warned, fails, killed = (server.get("run", id=f"{kind}/run") for kind in ("ends", "warned", "fails", "killed"))
+    assert ends["state"] == "ended" and ends["healthy"] and ends["reason"] == "" and ends["grains"] == 1
+    assert ends["time"] == ends["endTime"] == pytest.approx(1e-6, rel=1e-9)
+    assert warned["state"] == "ended" and not warned["healthy"] and "2.5 kg/m^3" in warned["complaints"][0]
+    assert fails["state"] == "failed" and "moves at" in fails["reason"]
+    assert killed["state"] == "silent" and "killed" in killed["reason"]
+
+
 def test_a_driver_that_could_not_say_its_options_is_asked_again(serve, root, tmp_path):
     drivers = tmp_path / "programs"
     driver_of(drivers, "Late", (f"[ -e {tmp_path}/ready ] || exit 1", ""))

@@ -23,23 +23,6 @@ namespace pendular::python {
 
 namespace {
 
-/// Lines of the log go to a function of Python until the interpreter ends.
-void setLog(const py::object& function) {
-    if (function.is_none()) return setLogSink({});
-    const std::shared_ptr<py::function> kept(new py::function(function), [](py::function* dropped) {
-        const py::gil_scoped_acquire python;
-        delete dropped;
-    });
-    setLogSink([kept](LogLevel level, std::string_view text) {
-        const py::gil_scoped_acquire python;
-        try {
-            (*kept)(static_cast<int>(level), std::string(text));
-        } catch (py::error_already_set& error) {
-            error.discard_as_unraisable("pendular");
-        }
-    });
-}
-
 /// A library of species calls the kernel in this module, so it must see its functions.
 void loadSpecies(const std::filesystem::path& library) {
     if (library.empty()) throw InputError("load_species() needs the name of a file; it is ''.");
@@ -71,6 +54,9 @@ std::string inPython(std::string sentence) {
           {"particleHandler.holdAll(HeldAxes::inPlane()) or setSystemDimensions(2)", "hold_all('in_plane')"},
           {"setGrainsAreDiscs(), setParticleDimensions(2)", "set_grains_are_discs()"},
           {"integrators::velocityVerlet", "'velocity_verlet'"},
+          {"integrators::springsInStep", "'springs_in_step'"},
+          {"HeldContacts::All", "'all'"},
+          {"HeldContacts::None", "'none'"},
           {"requestStop()", "stop()"},
           {"getForce()", "force"},
           {"getTorque()", "torque"},
@@ -97,6 +83,25 @@ std::string inPython(std::string sentence) {
     made.append(from, sentence.cend());
     static const std::regex species(R"re((^|[\s("'])([A-Za-z]\w*)Species(?=[\s)":',;]|\.?$|\.\s))re");
     return std::regex_replace(made, species, "$1$2");
+}
+
+/// Lines of the log go to a function of Python until the interpreter ends.
+void setLog(const py::object& function) {
+    if (function.is_none()) return setLogSink({});
+    const std::shared_ptr<py::function> kept(new py::function(function), [](py::function* dropped) {
+        const py::gil_scoped_acquire python;
+        delete dropped;
+    });
+    setLogSink([kept](LogLevel level, std::string_view text) {
+        const py::gil_scoped_acquire python;
+        try {
+            const bool isWarning = level == LogLevel::Warn;
+            (*kept)(static_cast<int>(level), isWarning ? inPython(std::string(text)) : std::string(text));
+        } catch (py::error_already_set& error) {
+            if (level != LogLevel::Warn || !PythonScene::raiseInRun(std::current_exception()))
+                error.discard_as_unraisable("pendular");
+        }
+    });
 }
 
 template <class Error>
@@ -156,6 +161,7 @@ std::shared_ptr<PythonScene> make(const std::string& name, int threads, bool qui
     if (!name.empty()) made->scene().setName(name);
     made->scene().setNumberOfThreads(threads);
     made->scene().setQuiet(quiet);
+    made->scene().setShowsProgress(false);  // run(progress=True) does
     return made;
 }
 
@@ -175,7 +181,7 @@ PYBIND11_MODULE(_kernel, module) {
     SceneClass scene(module, "Scene",
                      collectGarbage<PythonScene, &visitScene, [](PythonScene& of) { of.clearObjects(); }>());
     scene.def(py::init(&make), py::arg("name") = "", py::kw_only(), py::arg("threads") = 1,
-              py::arg("quiet") = true, py::arg("superquadrics") = py::none());
+              py::arg("quiet") = false, py::arg("superquadrics") = py::none());
 
     refuseCopies(scene,
                  "write_restart() keeps its state, and another scene that is set up alike goes on from it.");
@@ -214,6 +220,7 @@ PYBIND11_MODULE(_kernel, module) {
         "_fail_on_ranks", [](const std::string& sentence) { failOnRanks(sentence); }, py::arg("sentence"));
     module.def("_stop_all", &PythonScene::stopAll);
     module.def("_set_log", &setLog, py::arg("function"));
+    module.def("_set_program", &setProgramName, py::arg("name"));
     refuseUnmadeObjects(module);
     explainArguments(module);  // of all that is bound above
 }

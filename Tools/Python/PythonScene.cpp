@@ -125,6 +125,15 @@ private:
 PythonScene::PythonScene() = default;
 PythonScene::~PythonScene() = default;
 
+static thread_local std::exception_ptr raisedByWarning;  // the first one, until run() returns
+
+bool PythonScene::raiseInRun(std::exception_ptr error) {
+    const auto isHere = [](const PythonScene* scene) { return scene->thread == std::this_thread::get_id(); };
+    if (std::ranges::none_of(Running::all, isHere)) return false;
+    if (!raisedByWarning) raisedByWarning = std::move(error);
+    return true;
+}
+
 /// One that was on its way is raised here, where Python runs for the first time, and waits as well.
 void PythonScene::letInterruptsWait() {
     try {
@@ -234,6 +243,11 @@ void PythonScene::look() {
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
         if (isInterrupted) throw keyboardInterrupt();
         requireDroppedViews();
+        // Other ranks are not told of warnings: they go on to the end of the part.
+        if (raisedByWarning && !ranksOfProgram() && !raised) {
+            raised = std::exchange(raisedByWarning, nullptr);
+            running->requestPause();
+        }
     } catch (const py::error_already_set& error) {
         if (!error.matches(PyExc_KeyboardInterrupt)) endBy(error);
         raised = std::current_exception();
@@ -315,6 +329,7 @@ void PythonScene::go(const std::function<void()>& part) {
         part();
     } catch (...) {
         progressFunction = {};
+        raisedByWarning = nullptr;  // what has ended the run goes first
         const std::exception_ptr reason = raised ? std::exchange(raised, nullptr) : std::current_exception();
         try {
             tellEnd();
@@ -326,6 +341,10 @@ void PythonScene::go(const std::function<void()>& part) {
     // It may go on with the run, which has ended here.
     if (const py::object progress = std::exchange(progressFunction, {})) progress(scene().getTime());
     if (isInterrupted && !raised) raised = std::make_exception_ptr(keyboardInterrupt());
+    if (!raised && raisedByWarning) {
+        raised = std::exchange(raisedByWarning, nullptr);
+        tellEnd();  // the run may have ended all the same
+    }
     if (!raised) return tellEnd();
     if (keepsRestart && !scene().hasEnded() && views == 0) scene().writeRestart(scene().restartFile());
     std::rethrow_exception(std::exchange(raised, nullptr));

@@ -65,6 +65,10 @@ public:
     static void stopAll();
     void keepRestartFile(double interval, std::size_t steps);
 
+    /// A warning has raised, by a filter "error" of Python: the run of this thread pauses after its step, and
+    /// run() raises the same. Returns false where there is none.
+    static bool raiseInRun(std::exception_ptr error);
+
     // Called by Hosted.
     void beforeStep() {
         if (isFirstStep) schedule();

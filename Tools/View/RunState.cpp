@@ -16,6 +16,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Files/TextFile.h"
+#include "Kernel/Simulation/RunStatus.h"
 #include "Kernel/Simulation/SummaryFile.h"
 #include "Tools/View/FieldMaps.h"
 #include "Tools/View/FramePack.h"
@@ -78,9 +79,9 @@ struct State {
 /// What a run has said of its end in its summary; empty: nothing.
 std::string saidEnd(const State& state) {
     const std::string told = valueOf(state.summary, "state");
-    if (told == "stopped by an error") return "failed";
-    if (told == "asked to stop") return "stopped";
-    if (told == "at its end") return state.isPreparation ? "stopped" : "ended";
+    if (told == RunStatus::hasFailed) return "failed";
+    if (told == RunStatus::wasAskedToStop) return "stopped";
+    if (told == RunStatus::atItsEnd) return state.isPreparation ? "stopped" : "ended";
     return {};
 }
 
@@ -88,9 +89,12 @@ std::string saidEnd(const State& state) {
 void describeSilence(State& state, const RunFiles& run) {
     const bool isStarted = run.folder->hasFile(logFile) || state.summary || !run.folder->hasFile(startFile);
     state.word = isStarted ? "silent" : "stopped";
-    state.reason = isStarted ? "it has said nothing of its end: it was killed, or runs on another machine"
-                             : "it has not been started: it waited in a queue, and was taken from it, or its "
-                               "server ended; resume it to start it";
+    state.reason = state.summary ? "it has said nothing of its end: it was killed, or runs on another machine"
+                   : isStarted
+                       ? "it has no summary, and so nothing tells how it ended: it was killed at its "
+                         "start, or an earlier version made it"
+                       : "it has not been started: it waited in a queue, and was taken from it, or its "
+                         "server ended; resume it to start it";
 }
 
 State stateOf(const RunFiles& run, const Locks& locks) {

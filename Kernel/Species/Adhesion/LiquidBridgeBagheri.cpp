@@ -19,8 +19,9 @@ double smallestDenominator(double b, double c) {
 }  // namespace
 
 std::optional<std::string> LiquidBridgeBagheri::objection(const Bodies& bodies) const {
-    if (rawFit > 0 || liquidBridgeVolume == 0) return std::nullopt;
-    if (auto angle = LiquidBridge::objection(bodies)) return angle;
+    if (liquidBridgeVolume == 0) return std::nullopt;
+    if (rawFit > 0) return objectionToVolume(bodies);
+    if (auto found = LiquidBridge::objection(bodies)) return found;
     const BridgeScales bridge = scales(bodies);
     const auto [wetted, angled, aS, bS, cTheta] = coefficients(bridge.volume, contactAngle);
     const bool attracts = wetted * angled > 0 && 1 + aS > 0;

@@ -73,6 +73,7 @@ std::optional<std::string> LiquidBridgeYoungLaplace::objection(const Bodies& bod
                ", so take another volume or, between spheres, have the equation solved for each new bridge: "
                "in a driver setSolveOutsideTable(true), for TwoParticleCollision the option "
                "--solve-outside-table.";
+    if (auto volume = objectionToVolume(bodies)) return volume;
     const BridgeScales bridge = scales(bodies);
     if (solveCurve(shape(bodies), bridge.radius, bridge.forceScale)) return std::nullopt;
     return sentence(bodies, noBridge) + ".";

@@ -7,6 +7,7 @@
 #include "SelfTests/Species/Adhesion/IndependentBridgeForces.h"
 #include "SelfTests/Support/Draw.h"
 #include "SelfTests/Support/EveryLaw.h"
+#include "SelfTests/Support/Refusal.h"
 
 namespace pendular::bridgeForceTest {
 namespace {
@@ -276,6 +277,33 @@ TEST(BridgeForce, withoutLiquidThereIsNone) {
                 EXPECT_EQ(interaction.force(separation), 0) << Law::name;
             if constexpr (requires { law.objection(bodies); }) {
                 EXPECT_FALSE(law.objection(bodies));
+            }
+        }
+    });
+}
+
+/// 2 m^3 between grains of 1 mm are a slip, whatever the law: no law, and no option of one, takes them.
+TEST(BridgeForce, noLawHasABridgeOfManyTimesTheVolumeOfItsGrains) {
+    forEachBridgeLaw([]<class Law>() {
+        const Bodies bodies{1e-3, 1e-3};
+        const auto expectRefused = [&](const Law& law) {
+            const auto objection = law.objection(bodies);
+            ASSERT_TRUE(objection) << Law::name;
+            EXPECT_TRUE(support::isOneSentence(*objection));
+            EXPECT_TRUE(support::contains(*objection, Law::name));
+            EXPECT_TRUE(support::contains(*objection, "V*"));
+        };
+        // V* = 2e9, and a little more than 1000
+        for (const double volume : {2.0, 1.001e-6}) {
+            Law law = bridge<Law>(volume, 0.2, 0.07);
+            expectRefused(law);
+            if constexpr (requires { law.setRawFit(true); }) {
+                law.setRawFit(true);
+                expectRefused(law);
+            }
+            if constexpr (requires { law.setSolveOutsideTable(true); }) {
+                law.setSolveOutsideTable(true);
+                expectRefused(law);
             }
         }
     });

@@ -9,17 +9,25 @@
 // ViewFrames damaged FOLDER KIND: a frame as no run writes it: lines (contacts without ends), ends
 // (a contact with four), identity (of nine numbers)
 //
+// ViewFrames outside FOLDER END: a run as a driver outside of the repository makes it, with a name and an
+// output and no RunSummary; it ends, fails, is killed, or is warned of a density (ends, fails, killed,
+// warned)
+//
 // ViewFrames lattice FOLDER N BRIDGES FRAMES: N grains in a lattice, with about so many bridges
 
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
+#include <exception>
 #include <string>
+#include <utility>
 
 #include "Kernel/CoarseGraining/FieldFiles.h"
 #include "Kernel/Files/CsvFile.h"
 #include "Kernel/Output/Hdf5Output.h"
 #include "Kernel/Output/ParaViewOutput.h"
 #include "Kernel/Output/PolyData.h"
+#include "Kernel/Simulation/Simulation.h"
 
 using namespace pendular;
 
@@ -222,6 +230,38 @@ void writeLattice(const std::string& name, std::size_t count, std::size_t bridge
     writeSummary(name, count, 0.01 * frames);
 }
 
+/// A grain that flies.
+struct Outside : Simulation<LinearViscoelasticSpecies> {
+    explicit Outside(std::string how) : end(std::move(how)) {
+        LinearViscoelasticSpecies species;
+        species.setDensity(end == "warned" ? 2.5 : 2500);
+        species.setStiffness(300), species.setDissipation(1e-3);
+        SphericalParticle grain(speciesHandler.copyAndAddObject(species));
+        grain.setRadius(1e-3);
+        grain.setVelocity({0.1, 0, 0});
+        particleHandler.copyAndAddObject(grain);
+        setTimeStep(1e-7), setTimeMax(1e-6);
+    }
+    void actionsAfterTimeStep() override {
+        if (getNumberOfTimeSteps() != 5) return;
+        if (end == "fails") particleHandler.getObject(0).setVelocity({1e6, 0, 0});
+        if (end == "killed") std::raise(SIGKILL);
+    }
+    std::string end;
+};
+
+int runOutside(const std::string& name, const std::string& end) {
+    Outside scene(end);
+    scene.setName(name);
+    scene.addOutput(ParaViewOutput());
+    try {
+        scene.solve();
+    } catch (const std::exception&) {
+        return 1;
+    }
+    return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -231,6 +271,7 @@ int main(int argc, char** argv) {
     else if (argv[1] == std::string("hdf5")) writeHdf5Picture(name);
     else if (argv[1] == std::string("fields")) writeFields(name);
     else if (argc == 4 && argv[1] == std::string("damaged")) writeDamaged(name, argv[3]);
+    else if (argc == 4 && argv[1] == std::string("outside")) return runOutside(name, argv[3]);
     else if (argc == 6)
         writeLattice(name, std::strtoull(argv[3], nullptr, 10), std::strtoull(argv[4], nullptr, 10),
                      std::atoi(argv[5]));

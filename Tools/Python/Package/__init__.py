@@ -60,13 +60,14 @@ from ._kernel import (  # noqa: E402  (which is in the folder that was chosen)
 )
 from . import _arguments as _arguments
 from ._kernel import __version__ as _version
+from ._log import SceneWarning
 from ._log import show_log as _show_log
 from ._view import view
 from .results import draw, frames, restart, table, to_pyvista, walls_to_pyvista
 from .scene import Scene
 
 __all__ = [
-    "Fluid", "InputError", "Mixture", "Region", "RunError", "RunStopped", "Scene", "Shape", "Sizes", "Species",
+    "Fluid", "InputError", "Mixture", "Region", "RunError", "RunStopped", "Scene", "SceneWarning", "Shape", "Sizes", "Species",
     "Wall", "balanced_speed", "bidisperse_sizes", "block", "box", "clump", "cylinder", "drag_force", "drag_laws",
     "draw", "even_sizes", "fields", "frames", "load_species", "lognormal_sizes", "membrane_sheet", "membrane_tube",
     "mesh_inside", "normal_sizes", "one_size", "rank", "rank_count", "read_sizes", "restart", "rosin_rammler_sizes",

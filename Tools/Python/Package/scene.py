@@ -24,10 +24,10 @@ _OTHER_WORDS = {other: [word] for word, others in {
 class Scene(_kernel.Scene):
     """A scene of grains, and its run.
 
-    Scene(name="", *, threads=1, quiet=True, superquadrics=None)
+    Scene(name="", *, threads=1, quiet=False, superquadrics=None)
 
     name: what the names of its files begin with; a folder may be in it. threads: the results do not depend on it.
-    quiet: no warnings, no summary. superquadrics: the name of its one species type, where grains are superquadrics or
+    quiet: no warnings (they are pendular.SceneWarning, of Python's `warnings`), no summary. superquadrics: the name of its one species type, where grains are superquadrics or
     blocks (pendular.shaped_species() has the names).
 
     Arrays have a row for each grain, in the order of identities, and are copies. All numbers are in SI units. Raises

@@ -21,6 +21,18 @@ struct BridgeScales {
     double forceScale;       // 2 pi R gamma, N
 };
 
+/// V* = V / R^3 above which liquid between two grains is no bridge: two equal grains have 8 pi / 3 R^3
+/// together. A scene warns of it.
+inline constexpr double mostLikelyBridgeVolume = 10;
+/// V* above which no law has a bridge: in the rupture distance, V*^(1/3) + V*^(2/3)/10, what corrects small
+/// bridges is as large as what it corrects (Willett et al., Langmuir 16 (2000) 9396, fitted it up to V* of
+/// some 0.1); and each grain would be listed with all within 20 R.
+inline constexpr double mostBridgeVolume = 1000;
+
+/// Why no law has a bridge of this volume (m^3), if so.
+std::optional<std::string> objectionToBridgeVolume(std::string_view law, double liquidBridgeVolume,
+                                                   const BridgeScales& scales);
+
 /// Why a law that is made for liquids that wet cannot be used, if so: its contact angle (rad) is above 90
 /// degrees. There the exact force at contact repels for every volume (CapillaryBridge; a test), so that a fit
 /// that attracts has the wrong sign; and one that repels would give the grains energy in each collision,
@@ -67,9 +79,14 @@ struct LiquidBridge {
     /// The rupture distance (m).
     [[nodiscard]] double range(const Bodies& bodies) const { return scales(bodies).ruptureDistance; }
     /// Why the law cannot be used between the bodies, if so.
-    [[nodiscard]] std::optional<std::string> objection(const Bodies&) const {
+    [[nodiscard]] std::optional<std::string> objection(const Bodies& bodies) const {
         if (liquidBridgeVolume == 0) return std::nullopt;
+        if (auto volume = objectionToVolume(bodies)) return volume;
         return objectionAboveRightAngle(Model::name, contactAngle);
+    }
+    /// The objection to the volume alone, which holds for every law.
+    [[nodiscard]] std::optional<std::string> objectionToVolume(const Bodies& bodies) const {
+        return objectionToBridgeVolume(Model::name, liquidBridgeVolume, scales(bodies));
     }
     /// The limits of the volume V* and the contact angle (degrees) for which Model says that it is made:
     /// `madeForVolume`, `madeForAngle`.

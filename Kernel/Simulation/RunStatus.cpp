@@ -1,0 +1,44 @@
+#include "Kernel/Simulation/RunStatus.h"
+
+#include <system_error>
+
+#include "Kernel/Base/Host.h"
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Simulation/SummaryFile.h"
+
+namespace pendular {
+
+void RunStatus::addTo(SummaryRows& rows) const {
+    rows.add("program", programName());
+    rows.add("state", state);
+    if (!reason.empty()) rows.add("reason", reason);
+    rows.addNumber("time", time, "s");
+    rows.addNumber("end time", endTime, "s");
+    rows.add("steps", steps);
+    rows.addNumber("time step", timeStep, "s");
+}
+
+RunStatusFile::RunStatusFile(const std::string& run) : path(SummaryFile::pathOf(run)) {}
+
+bool RunStatusFile::isDue() const { return Clock::now() >= next; }
+
+void RunStatusFile::write(const SummaryRows& rows, bool isInterim) {
+    next = Clock::now() + std::chrono::seconds(1);
+    CsvFile file(path, "quantity,value,unit");
+    rows.write(file);
+    file.close();
+    open = isInterim;
+}
+
+std::string programOfSummary(const std::string& run) {
+    const std::filesystem::path path = SummaryFile::pathOf(run);
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return {};
+    try {
+        for (const SummaryFile::Row& row : SummaryFile(path).rows())
+            if (row.quantity == "program") return row.value;
+    } catch (const InputError&) {}  // it is no summary
+    return {};
+}
+
+}  // namespace pendular
