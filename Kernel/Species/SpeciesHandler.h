@@ -47,6 +47,8 @@ public:
         added.index.owner = this;
         return &added;
     }
+    /// A copy of what a pointer shows.
+    S* copyAndAddObject(const S* species) { return copyAndAddObject(*species); }
     [[nodiscard]] std::size_t getSize() const { return all.size(); }
     [[nodiscard]] bool isEmpty() const { return getSize() == 0; }
     [[nodiscard]] S* getObject(std::size_t index) { return &all.at(checked(index)); }
