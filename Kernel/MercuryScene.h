@@ -162,7 +162,8 @@ public:
         readRestartFile(isOwn ? Run::restartFile() : text);
     }
     /// The same of a file; one of MercuryDPM's in text (MercuryRestart) is a start, from the time that it
-    /// has, and a line of the log says what was taken over. For scenes of any species (Mercury3D).
+    /// has, and a line of the log says what was taken over; setupInitialConditions() is not called after it.
+    /// For scenes of any species (Mercury3D).
     void readRestartFile(const std::filesystem::path& file) {
         if (!isMercuryRestart(file)) return this->restartFrom(file);
         takeOver(readMercuryRestart(file));
@@ -341,6 +342,7 @@ void MercuryScene<Types...>::takeOver(const MercuryRestart& state) {
         setDomain(state.lowest, state.highest);
         this->setGravity(state.gravity);
         this->startAt(state.time);
+        this->leaveOutInitialConditions();
         if (state.timeStep > 0) this->setTimeStep(state.timeStep);
         this->setTimeMax(state.timeMax);
         this->setSaveCount(state.saveCount);

@@ -98,7 +98,7 @@ private:
                 state.name = lines.all()[*at];
             readHead(lines, state);
         } else if (word != "FixedParticles") {
-            ++state.passedOver[shown(word)];
+            ++state.passedOver[shownName(word)];
         }
     }
     /// So many species, and the pairs of them wherever they stand between and behind them.

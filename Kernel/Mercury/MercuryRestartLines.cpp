@@ -8,6 +8,14 @@
 
 namespace pendular {
 
+std::string shownName(std::string_view word) {
+    const bool isName =
+        word.size() <= 80 && std::ranges::all_of(word, [](char c) {
+            return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_';
+        });
+    return isName ? std::string(word) : shown(word);
+}
+
 bool MercuryRestartLines::next() {
     words.clear();
     while (words.empty() && at < file->text.size()) {
@@ -112,7 +120,7 @@ void MercuryRestartLines::refuseOthers(std::string_view what,
         const std::size_t count = countAt(k + 1);
         for (std::size_t n = 0; n < count && value == 0; ++n) value = numberAt(k + 1 + n);
         if (value == 0 && count > 0) continue;
-        refuse(fmt::format("{} has '{}'{}, which is not taken over", what, shown(words[k]),
+        refuse(fmt::format("{} has '{}'{}, which is not taken over", what, shownName(words[k]),
                            count > 0 ? fmt::format(" = {}", value) : std::string()));
     }
 }

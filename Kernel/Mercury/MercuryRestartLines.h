@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -10,6 +11,9 @@
 #include "Kernel/Particles/SphericalParticle.h"
 
 namespace pendular {
+
+/// The name of a type or a field in a message: all of it, unless it is none.
+std::string shownName(std::string_view word);
 
 /// The lines of a restart file of MercuryDPM's, one after the other, and their words: keywords, each with its
 /// values behind it. All functions that look for a word throw InputError, with the file and the line, where

@@ -71,7 +71,7 @@ MercuryRestart::Species speciesOf(const Lines& lines) {
     for (std::size_t k = 1; k < lines.all().size();) {
         const std::string_view word = lines.all()[k];
         const std::size_t count = lines.countAt(k + 1);
-        if (count == 0) lines.refuse(fmt::format("'{}' has no number behind it", shown(word)));
+        if (count == 0) lines.refuse(fmt::format("'{}' has no number behind it", shownName(word)));
         if (word != "id" && word != "idA" && word != "idB" && word != "idMixed" && !hasNoEffect(lines, k))
             species.fields.emplace_back(fieldOf(word, species.type), lines.numberAt(k + 1));
         k += 1 + count;
@@ -130,7 +130,7 @@ MercuryRestart::Wall::Shape shapeOf(const Lines& lines) {
     if (lines.first() == "numFiniteWalls" && lines.count("numFiniteWalls") == 0) return Shape::Plane;
     lines.refuse(fmt::format(
         "walls of the type '{}' are not taken over; set this one up in the driver, and delete it here",
-        shown(lines.first())));
+        shownName(lines.first())));
 }
 
 /// The axis of a period. Throws InputError for one across another direction, or along its faces.
@@ -241,7 +241,7 @@ void MercuryRestartObjects::addBoundary(const MercuryRestartLines& lines) {
         lines.refuse(
             fmt::format("boundaries of the type '{}' are not taken over; set this one up in the driver, and "
                         "delete it here",
-                        shown(type)));
+                        shownName(type)));
     }
 }
 
@@ -249,7 +249,7 @@ void MercuryRestartObjects::addGrain(const MercuryRestartLines& lines) {
     if (isOld()) return addOldGrain(lines);
     const std::string_view type = lines.first();
     if (type != "BaseParticle" && type != "SphericalParticle" && type != "LiquidFilmParticle")
-        lines.refuse(fmt::format("particles of the type '{}' are not taken over", shown(type)));
+        lines.refuse(fmt::format("particles of the type '{}' are not taken over", shownName(type)));
     for (const std::string_view word : {"position", "velocity", "radius", "indSpecies"})
         if (!lines.has(word)) lines.refuse(fmt::format("the particle has no '{}'", word));
     lines.refuseOthers("the particle",

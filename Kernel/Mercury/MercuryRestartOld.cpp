@@ -79,7 +79,7 @@ void MercuryRestartObjects::addOldSpecies(const MercuryRestartLines& lines) {
         const auto field = std::ranges::find(oldFields, word, &OldField::old);
         if (field == oldFields.end())
             lines.refuse(
-                fmt::format("the species has '{}' = {}, which is not taken over", shown(word), value));
+                fmt::format("the species has '{}' = {}, which is not taken over", shownName(word), value));
         const std::string_view now = isPlastic && !field->ofPlastic.empty() ? field->ofPlastic : field->now;
         const bool isRotation = now.starts_with("rolling") || now.starts_with("torsion");
         const bool isOfNone = (now.starts_with("sliding") && friction.empty()) ||
@@ -105,7 +105,7 @@ void MercuryRestartObjects::addOldGrain(const MercuryRestartLines& lines) {
         if (word == "TSP") hasSprings = true;
         else if (word == "DMP") hasFlattening = true;
         else if (word != "BP")
-            lines.refuse(fmt::format("particles of the type '{}' are not taken over", shown(word)));
+            lines.refuse(fmt::format("particles of the type '{}' are not taken over", shownName(word)));
     }
     const bool hasSpecies = state->version != "2";
     const std::size_t self = state->grains.size();

@@ -7,6 +7,7 @@
 #include "Kernel/Base/FullStop.h"
 #include "Kernel/Contacts/SpeciesRegistry.h"
 #include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Mercury/MercuryRestartLines.h"
 
 namespace pendular {
 namespace {
@@ -28,7 +29,7 @@ void requireType(const MercuryRestart& state, const MercuryRestart::Species& spe
         state.refuse(species.line,
                      fmt::format("this program has no species type '{0}'; if the kernel has its laws, call "
                                  "registerSpecies<{0}>() (Kernel/Contacts/SpeciesRegistry.h) before",
-                                 species.type));
+                                 shownName(species.type)));
     }
 }
 
@@ -140,10 +141,12 @@ std::vector<std::uint32_t> addGrainsOf(const MercuryRestart& state, const Severa
             one.setPosition(grain.row.position);
             one.setLiquidVolume(grain.liquidVolume);
             if (grain.inverseMass == 0) one.fixParticle();
+            else one.setVelocity(grain.row.velocity), one.setAngularVelocity(grain.row.angularVelocity);
             GrainReference added = particles.copyAndAddObject(one);
-            // A fixed particle moves with the velocity that it has.
-            added.setVelocity(grain.row.velocity);
-            added.setAngularVelocity(grain.row.angularVelocity);
+            if (one.isFixed()) {  // it moves with the velocity that it has
+                added.setVelocity(grain.row.velocity);
+                added.setAngularVelocity(grain.row.angularVelocity);
+            }
             requireMass(state, grain, particles.massOf(one.getRadius(), one.getSpeciesIndex()));
             identities.push_back(added.getId());
         });
