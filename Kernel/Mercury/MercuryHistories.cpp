@@ -116,7 +116,7 @@ void MercuryHistories::give(StepContext& step) {
                 throw InputError(fmt::format(
                     "{}: the restart file has a flattening of {} m for it, and its law {} is not plastic.",
                     whose, history.flattening, laws.name));
-            step.contacts.setNormalHistory(seen, {{history.flattening}});
+            step.contacts.setNormalHistory(seen, {history.flattening});
         }
         waiting.erase(one);
     });

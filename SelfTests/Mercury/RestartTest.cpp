@@ -327,6 +327,28 @@ TEST(MercuryRestart, contactsHaveTheirSprings) {
     }
 }
 
+// A run that began with such a file goes on from the kernel's own restart file, with the same bits.
+TEST(MercuryRestart, aRunFromItGoesOnFromItsOwnRestartFile) {
+    const std::string contact =
+        "7 3 slidingSpring 0 2e-3 -1e-3 rollingSpring 0 1e-3 3e-3 torsionSpring 4e-3 0 0";
+    Restarted whole = twoOfFriction(contact), resumed = twoOfFriction(contact);
+    whole.runTo(0.52);
+    whole.writeRestart(whole.folder.path() / "middle.h5");
+    resumed.restartFrom(whole.folder.path() / "middle.h5");
+    resumed.runTo(0.55);
+    whole.runTo(0.55);
+    EXPECT_EQ(resumed.getNumberOfTimeSteps(), 50u);
+    EXPECT_EQ(resumed.getTime(), whole.getTime());
+    for (const std::size_t k : {0, 1}) {
+        const GrainReference one = whole.particleHandler.getObject(k),
+                             other = resumed.particleHandler.getObject(k);
+        EXPECT_EQ(one.getPosition(), other.getPosition());
+        EXPECT_EQ(one.getAngularVelocity(), other.getAngularVelocity());
+        EXPECT_GT(one.getAngularVelocity().norm(), 1e-3);
+    }
+    whole.finishRun(), resumed.finishRun();
+}
+
 // The force of a plastic contact with its largest overlap, as MercuryDPM's PlasticForceUnitTest1.1.restart
 // has it.
 TEST(MercuryRestart, plasticContactsAreFlattened) {
