@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <concepts>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -144,8 +145,11 @@ public:
     /// Adds a copy of the grain. Its mass is that of a solid sphere of its species' density. Throws
     /// InputError when 2^31 grains have been added in all.
     GrainReference copyAndAddObject(const SphericalParticle& grain);
-    /// A copy of what a pointer shows.
-    GrainReference copyAndAddObject(const SphericalParticle* grain) { return copyAndAddObject(*grain); }
+    /// A copy of what a pointer shows. (A template, so that {} is no pointer.)
+    template <std::same_as<SphericalParticle> One>
+    GrainReference copyAndAddObject(const One* grain) {
+        return copyAndAddObject(*grain);
+    }
     /// Removes the grain with this identity; its contacts and bridges end. The identities of all others stay,
     /// and this one is not given again. Throws InputError if there is no such grain, or if it is part of a
     /// rigid body.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -47,8 +48,11 @@ public:
         added.index.owner = this;
         return &added;
     }
-    /// A copy of what a pointer shows.
-    S* copyAndAddObject(const S* species) { return copyAndAddObject(*species); }
+    /// A copy of what a pointer shows. (A template, so that {} is no pointer.)
+    template <std::same_as<S> One>
+    S* copyAndAddObject(const One* species) {
+        return copyAndAddObject(*species);
+    }
     [[nodiscard]] std::size_t getSize() const { return all.size(); }
     [[nodiscard]] bool isEmpty() const { return getSize() == 0; }
     [[nodiscard]] S* getObject(std::size_t index) { return &all.at(checked(index)); }
