@@ -29,6 +29,7 @@
 #include "Kernel/Mercury/MercuryPaths.h"
 #include "Kernel/Mercury/MercuryPlane.h"
 #include "Kernel/Mercury/MercuryRestart.h"
+#include "Kernel/Mercury/MercuryRestartScene.h"
 #include "Kernel/Mercury/MercuryWalls.h"
 #include "Kernel/MercuryNames.h"
 
@@ -46,6 +47,7 @@ public:
             boundaryHandler.settle();
             requireOnePlane(this->particleHandler);
             findOwnForces();
+            warnOfFiles();
         };
     }
 
@@ -84,9 +86,13 @@ public:
     virtual void writeEneTimeStep(std::ostream&) const final {}
     virtual void writeEneHeader(std::ostream&) const final {}
 
-    /// The arguments of main(): takeArguments() says which.
+    /// The arguments of main(): those of takeArguments(), and -xmin, ..., -zmax (m), -gravity X Y Z (m/s^2),
+    /// -dim 2 or 3, -saveCountData, -saveCountFStat, -saveCountEne and -saveCountRestart STEPS.
     void solve(int argc, const char* const* argv) {
-        takeArguments(*this, argc, argv);
+        takeArguments(*this, argc, argv, options(), [this](const std::filesystem::path& file) {
+            if (file.empty()) readRestartFile();
+            else readRestartFile(file);
+        });
         solve();
     }
 
@@ -155,11 +161,12 @@ public:
         const bool isOwn = std::filesystem::exists(Run::restartFile()) || !isMercuryRestart(text);
         readRestartFile(isOwn ? Run::restartFile() : text);
     }
-    /// The same of a file; one of MercuryDPM's in text is a start: readMercuryRestart(). That is taken by
-    /// scenes of any species (Mercury3D).
+    /// The same of a file; one of MercuryDPM's in text (MercuryRestart) is a start, from the time that it
+    /// has, and a line of the log says what was taken over; setupInitialConditions() is not called after it.
+    /// For scenes of any species (Mercury3D).
     void readRestartFile(const std::filesystem::path& file) {
         if (!isMercuryRestart(file)) return this->restartFrom(file);
-        takeOver(readMercuryRestart(file), file);
+        takeOver(readMercuryRestart(file));
     }
     void writeRestartFile() { this->writeRestart(Run::restartFile()); }
     /// Adds the grains of a .data file, and takes its box: readMercuryData(). Their species must be there.
@@ -198,8 +205,29 @@ public:
     }
 
 private:
-    void takeOver(const MercuryRestart& state, const std::filesystem::path& file);
+    [[nodiscard]] std::vector<MercuryOption> options();
+    void takeOver(const MercuryRestart& state);
+    void takeHistoriesOver(const MercuryRestart& state, const std::vector<std::uint32_t>& grains,
+                           const std::vector<std::size_t>& walls);
     void addGrainsOf(const std::vector<GrainRow>& rows);
+    /// Of output that MercuryDPM would write and that is not written here.
+    void warnOfFiles() const {
+        if (interactionFile.isWritten())
+            Run::logger(LogLevel::Warn,
+                        "interactionFile: its file is not written here; the contacts are in NAME.fstat, in "
+                        "the restart "
+                        "file, and in interactionHandler.");
+        const std::size_t fields = cgHandler.countOfFiles();
+        if (fields > 0 && isNamed())
+            Run::logger(LogLevel::Warn,
+                        "cgHandler: the files NAME.stat of its {} coarse grainings are not written here; "
+                        "write fields by "
+                        "addOutput(FieldOutput(...)) or from getPoints(), or call "
+                        "statFile.setFileType(FileType::NO_FILE).",
+                        fields);
+    }
+    /// Files of frames are written of a scene that was given a name.
+    [[nodiscard]] bool isNamed() const { return this->getName() != MercuryFiles::nameOfUnnamed; }
     /// Forces cost nothing where the driver does not override the function above. GCC can tell that: an
     /// object's own function, and the one of this class, as plain pointers.
     void findOwnForces() {
@@ -254,13 +282,37 @@ public:
     MercuryFile& fStatFile = settings->fStat;
     MercuryFile& eneFile = settings->energies;
     MercuryFile& restartFile = settings->restart;
-    MercuryNoFile interactionFile;  // restart files have the contacts
+    MercuryNoFile interactionFile{FileType::NO_FILE};  // restart files have the contacts
     MercuryRandom& random = settings->random;
     MercuryWallHandler wallHandler{Scene::wallHandler, domain, settings};
     MercuryBoundaryHandler boundaryHandler{*this, {&copies, &insertions, &actions}};
     MercuryInteractionHandler interactionHandler{*this, settings, bonds};
     MercuryCGHandler cgHandler{*this};
 };
+
+template <class... Types>
+std::vector<MercuryOption> MercuryScene<Types...>::options() {
+    using Values = std::vector<double>;
+    std::vector<MercuryOption> all{
+        {"-xmin", 1, [this](const Values& v) { setXMin(v[0]); }},
+        {"-ymin", 1, [this](const Values& v) { setYMin(v[0]); }},
+        {"-zmin", 1, [this](const Values& v) { setZMin(v[0]); }},
+        {"-xmax", 1, [this](const Values& v) { setXMax(v[0]); }},
+        {"-ymax", 1, [this](const Values& v) { setYMax(v[0]); }},
+        {"-zmax", 1, [this](const Values& v) { setZMax(v[0]); }},
+        {"-gravity", 3,
+         [this](const Values& v) {
+             this->setGravity({v[0], v[1], v[2]});
+         }},
+        {"-dim", 1, [this](const Values& v) { setSystemDimensions(static_cast<int>(v[0])); }}};
+    const auto addFile = [&](std::string_view name, MercuryFile& file) {
+        all.push_back(
+            {name, 1, [name, to = &file](const Values& v) { to->setSaveCount(stepsOfOption(name, v[0])); }});
+    };
+    addFile("-saveCountData", dataFile), addFile("-saveCountFStat", fStatFile);
+    addFile("-saveCountEne", eneFile), addFile("-saveCountRestart", restartFile);
+    return all;
+}
 
 template <class... Types>
 void MercuryScene<Types...>::readDataFile(const std::filesystem::path& file) {
@@ -277,27 +329,46 @@ void MercuryScene<Types...>::addGrainsOf(const std::vector<GrainRow>& rows) {
 }
 
 template <class... Types>
-void MercuryScene<Types...>::takeOver(const MercuryRestart& state, const std::filesystem::path& file) {
+void MercuryScene<Types...>::takeOver(const MercuryRestart& state) {
     if constexpr (sizeof...(Types) > 0) {
-        static_cast<void>(state);
         throw InputError(fmt::format(
             "The restart file {} is one of MercuryDPM's, in text, with species of its own; take Mercury3D.",
-            file.string()));
+            state.file.string()));
     } else {
-        for (const MercuryRestart::Species& one : state.species) {
-            auto* const species = this->speciesHandler.addByName(one.type);
-            for (const auto& [field, value] : one.fields) species->set(field, value);
-        }
+        requireTouchingBridges(state);
+        setSystemDimensions(state.systemDimensions);
+        setParticleDimensions(state.particleDimensions);
+        addSpeciesOf(state, this->speciesHandler);
         setDomain(state.lowest, state.highest);
         this->setGravity(state.gravity);
+        this->startAt(state.time);
+        this->leaveOutInitialConditions();
         if (state.timeStep > 0) this->setTimeStep(state.timeStep);
         this->setTimeMax(state.timeMax);
         this->setSaveCount(state.saveCount);
         if (!state.name.empty()) this->setName(state.name);
-        for (const MercuryRestart::Plane& plane : state.planes)
-            wallHandler.copyAndAddObject(
-                InfiniteWall(plane.normal, plane.point, this->speciesHandler.getObject(plane.species)));
-        addGrainsOf(state.grains);
+        const std::vector<std::size_t> walls = addWallsOf(state, this->speciesHandler, wallHandler);
+        addBoundariesOf(state, boundaryHandler);
+        takeHistoriesOver(state, pendular::addGrainsOf(state, this->speciesHandler, this->particleHandler),
+                          walls);
+        Run::logger(LogLevel::Info, "{}", state.summary());
+    }
+}
+
+/// The part that gives contacts their histories is there only where the file has some.
+template <class... Types>
+void MercuryScene<Types...>::takeHistoriesOver(const MercuryRestart& state,
+                                               const std::vector<std::uint32_t>& grains,
+                                               const std::vector<std::size_t>& walls) {
+    MercuryHistories* histories = nullptr;
+    for (const MercuryRestart::History& one : state.histories) {
+        const MercuryHistories::OfContact contact = historyOf(one, grains, walls);
+        if (one.isBonded)
+            bonds.ask(
+                {contact.first, contact.wall < 0 ? contact.second : ObservedContact::none, contact.wall}, -1);
+        if (!one.remembers()) continue;
+        if (!histories) histories = &this->template addPart<MercuryHistories>();
+        histories->add(contact);
     }
 }
 

@@ -17,13 +17,22 @@ require_file driver "$driver"
 
 # A line that begins with a comment stays as it is.
 port() {
-    local operand='([^(),]+(\([^()]*\))?)'
+    local operand='([^(),]+(\([^()]*\)[^(),]*)*)'
     sed -E \
         -e '/^[[:space:]]*(\/\/|\*)/b' \
         -e 's/([]A-Za-z0-9_)])\.(X|Y|Z)\b/\1.\l\2()/g' \
         -e 's/([]A-Za-z0-9_)])\.([XYZ])([XYZ])\b/\1(\x01\2, \x01\3)/g; s/\x01X/0/g; s/\x01Y/1/g; s/\x01Z/2/g' \
         -e "s/Vec3D::dot\\($operand,[[:space:]]*$operand\\)/(\\1).dot(\\3)/g" \
         -e "s/Vec3D::cross\\($operand,[[:space:]]*$operand\\)/(\\1).cross(\\3)/g" \
+        -e "s/Vec3D::getDistance\\($operand,[[:space:]]*$operand\\)/((\\1) - (\\3)).norm()/g" \
+        -e "s/Vec3D::getDistanceSquared\\($operand,[[:space:]]*$operand\\)/((\\1) - (\\3)).squaredNorm()/g" \
+        -e "s/Vec3D::getLength\\($operand\\)/(\\1).norm()/g" \
+        -e "s/Vec3D::getLengthSquared\\($operand\\)/(\\1).squaredNorm()/g" \
+        -e "s/Vec3D::getUnitVector\\($operand\\)/(\\1).normalized()/g" \
+        -e 's/([]A-Za-z0-9_)])\.get(X|Y|Z)[[:space:]]*\(\)/\1.\l\2()/g' \
+        -e 's/([]A-Za-z0-9_)])\.set(X|Y|Z)[[:space:]]*\(([^()]+(\([^()]*\))?)\)[[:space:]]*;/\1.\l\2() = \3;/g' \
+        -e 's/([]A-Za-z0-9_)])\.getComponent[[:space:]]*\(([^()]+)\)/\1[\2]/g' \
+        -e 's/\.normalise[[:space:]]*\(\)/.normalize()/g' \
         -e 's/([A-Za-z_.]*)speciesHandler\.addObject\(([A-Za-z_0-9]+)\)/\2 = \1speciesHandler.copyAndAddObject(*\2)/g' \
         -e 's/dynamic_cast<[^()]*\*>\((([A-Za-z_0-9]+(->|\.))*interactionHandler\.getInteraction\((.*)\))\)/\1/' \
         -e 's/((\(\*[A-Za-z_0-9]+\)|[A-Za-z_0-9]+)((->|\.)[A-Za-z_0-9]+(\([^()]*\))?)*)\.isEqualTo\(/mathsFunc::isEqual(\1, /g' \
@@ -31,9 +40,9 @@ port() {
         -e 's/std::vector<BaseParticle[[:space:]]*\*>::(const_)?iterator/auto/g' \
         -e 's/std::vector<BaseParticle[[:space:]]*\*>/std::vector<SphericalParticle*>/g' \
         -e 's/\bnew BaseParticle\b/new SphericalParticle/g' \
-        -e 's/(\bcomputeExternalForces\()BaseParticle[[:space:]]*\*[[:space:]]*/\1MercuryForcedGrain /g' \
-        -e 's/\.getLengthSquared\(\)/.squaredNorm()/g' \
-        -e 's/\.getLength\(\)/.norm()/g' \
+        -e 's/(\bcomputeExternalForces)[[:space:]]*\([[:space:]]*BaseParticle[[:space:]]*\*[[:space:]]*/\1(MercuryForcedGrain /g' \
+        -e 's/\.getLengthSquared[[:space:]]*\(\)/.squaredNorm()/g' \
+        -e 's/\.getLength[[:space:]]*\(\)/.norm()/g' \
         -e 's/\b(const )?(BaseParticle|BaseInteraction|BaseWall|BaseBoundary)[[:space:]]*\*[[:space:]]*/auto /g' \
         -e 's/\bBaseParticle ([A-Za-z_])/SphericalParticle \1/g' \
         "$1"

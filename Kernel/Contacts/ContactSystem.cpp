@@ -575,6 +575,13 @@ double ContactSystem::columnOf(const ObservedContact& seen, std::size_t column) 
 double& ContactSystem::adhesionNumberOf(const ObservedContact& seen, std::size_t number) {
     return contacts.memory.interaction.at(slotOf(seen), number);
 }
+void ContactSystem::setFrictionHistory(const ObservedContact& seen, const std::vector<double>& numbers) {
+    for (std::size_t k = 0; k < numbers.size(); ++k) contacts.memory.history.at(slotOf(seen), k) = numbers[k];
+}
+void ContactSystem::setNormalHistory(const ObservedContact& seen, const std::vector<double>& numbers) {
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+        contacts.memory.normalHistory.at(slotOf(seen), k) = numbers[k];
+}
 std::size_t ContactSystem::slotOf(const ObservedContact& seen) const {
     if (seen.list != rebuilds)
         throw InputError(fmt::format(
@@ -583,6 +590,24 @@ std::size_t ContactSystem::slotOf(const ObservedContact& seen) const {
             seen.particle1));
     return contacts.slotOf(seen.number);
 }
+/// As the kernel's own sums (ParticleSum.h) have it.
+GrainLoad ContactSystem::loadOn(const Grains& grains, std::uint32_t place) const {
+    GrainLoad load;
+    const ContactMemory& memory = contacts.memory;
+    const double radius = grains.translation[place].radius;
+    for (const std::uint32_t side : sidesOf(place)) {
+        const std::uint32_t slot = side / 2, contact = contacts.contactAt(slot);
+        if (!contacts.acts(contact)) continue;
+        const double sign = side % 2 == 0 ? 1 : -1;
+        load.force += sign * contacts.forceOf(contact);
+        if (!memory.getLayout().hasTorque) continue;
+        const ForceTorqueRecord record = memory.records[slot];
+        load.torque += (radius - record.halfOverlap) * record.leverless;
+        if (memory.getLayout().hasContactTorque) load.torque += sign * memory.torques[slot].torque;
+    }
+    return load;
+}
+
 double ContactSystem::springLength(std::uint32_t contact) const {
     ContactNumbers history;
     contacts.memory.history.get(contacts.slotOf(contact), history.data());

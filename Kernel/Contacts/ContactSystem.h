@@ -20,6 +20,7 @@
 #include "Kernel/Contacts/SkinChoice.h"
 #include "Kernel/Contacts/WallPatches.h"
 #include "Kernel/Contacts/WallPointSearch.h"
+#include "Kernel/Particles/GrainLoad.h"
 #include "Kernel/Particles/NamedColumn.h"
 #include "Kernel/Ranks/AllRanks.h"
 #include "Kernel/Walls/WallHandler.h"
@@ -291,9 +292,15 @@ public:
 
     /// A number that the adhesion law of a contact remembers, as for columnOf().
     [[nodiscard]] double& adhesionNumberOf(const ObservedContact& seen, std::size_t number);
+    /// Sets what the friction law, or the normal law, of a contact remembers, as for columnOf(): the numbers
+    /// of its History.
+    void setFrictionHistory(const ObservedContact& seen, const std::vector<double>& numbers);
+    void setNormalHistory(const ObservedContact& seen, const std::vector<double>& numbers);
 
     [[nodiscard]] ObservedContact observe(const Grains& grains, const Bucket& bucket,
                                           std::uint32_t contact) const;
+    /// The sum over the contacts of the grain at a place, of the last step, also of one that is held.
+    [[nodiscard]] GrainLoad loadOn(const Grains& grains, std::uint32_t place) const;
     /// The length (m) of the tangential spring.
     [[nodiscard]] double springLength(std::uint32_t contact) const;
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -73,8 +74,11 @@ public:
     /// Adds a copy; the pointer stays valid, and values may be set through it at any time: during a run, a
     /// new value holds from the next step on. Species are added before the run.
     template <class S>
-    S* copyAndAddObject(const S& species) {
-        return &add<S>(species).species;
+    requires(!std::is_pointer_v<S>) S* copyAndAddObject(const S& species) { return &add<S>(species).species; }
+    /// A copy of what a pointer shows.
+    template <class S>
+    S* copyAndAddObject(const S* species) {
+        return copyAndAddObject(*species);
     }
     /// Adds a species of this type of which nothing is set: its fields are set by their names.
     template <class S>
@@ -177,8 +181,14 @@ template <class... Types>
 class SpeciesHandlerOf : public SeveralSpeciesHandler {
 public:
     template <class S>
-    requires(sizeof...(Types) == 0 || (std::same_as<S, Types> || ...)) S* copyAndAddObject(const S& species) {
+    requires(!std::is_pointer_v<S> &&
+             (sizeof...(Types) == 0 ||
+              (std::same_as<S, Types> || ...))) S* copyAndAddObject(const S& species) {
         return SeveralSpeciesHandler::copyAndAddObject(species);
+    }
+    template <class S>
+    S* copyAndAddObject(const S* species) {
+        return copyAndAddObject(*species);
     }
 };
 

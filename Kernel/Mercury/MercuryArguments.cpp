@@ -1,8 +1,11 @@
 #include "Kernel/Mercury/MercuryArguments.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <string_view>
 
 #include "Kernel/Files/TextFile.h"
@@ -17,38 +20,56 @@ double numberOf(std::string_view option, std::string_view word) {
     return value;
 }
 
-std::size_t stepsOf(std::string_view option, std::string_view word) {
-    const double value = numberOf(option, word);
+}  // namespace
+
+std::size_t stepsOfOption(std::string_view option, double value) {
     if (!(value >= 0) || value > 1e18 || value != std::floor(value))
         throw InputError(fmt::format("The option {} is {}; it must be a whole number of steps, at least 0.",
-                                     option, word));
+                                     option, value));
     return static_cast<std::size_t>(value);
 }
 
-}  // namespace
-
-void takeArguments(Run& run, int argc, const char* const* argv) {
-    bool goesOn = false;
-    for (int k = 1; k < argc; ++k) {
+void takeArguments(Run& run, int argc, const char* const* argv, std::span<const MercuryOption> others,
+                   const std::function<void(const std::filesystem::path&)>& restart) {
+    std::vector<MercuryOption> options{
+        {"-tmax", 1, [&](const std::vector<double>& v) { run.setTimeMax(v[0]); }},
+        {"-dt", 1, [&](const std::vector<double>& v) { run.setTimeStep(v[0]); }}};
+    for (const std::string_view name : {"-saveCount", "-savecount", "-save_count"})
+        options.push_back({name, 1, [&run, name](const std::vector<double>& v) {
+                               run.setSaveCount(stepsOfOption(name, v[0]));
+                           }});
+    options.insert(options.end(), others.begin(), others.end());
+    int k = 1;
+    const auto valueOf = [&](std::string_view option) -> std::string_view {
+        if (k + 1 >= argc) throw InputError(fmt::format("The option {} needs a value behind it.", option));
+        return argv[++k];
+    };
+    // The name comes first, as -r without a file means the file of this name, wherever the two stand.
+    for (int n = 1; n + 1 < argc; ++n)
+        if (std::string_view(argv[n]) == "-name") run.setName(argv[n + 1]);
+    for (; k < argc; ++k) {
         const std::string_view option = argv[k];
-        const bool hasValue = k + 1 < argc && (argv[k + 1][0] != '-' || option != "-r");
-        if (option == "-r") {
-            if (hasValue) run.restartFrom(argv[++k]);
-            else goesOn = true;
+        if (option == "-name") {
+            run.setName(std::string(valueOf(option)));
             continue;
         }
-        if (option != "-name" && option != "-tmax" && option != "-dt" && option != "-savecount")
-            throw InputError(fmt::format(
-                "There is no option {}; solve(argc, argv) knows -name, -tmax, -dt, -savecount and -r.",
-                option));
-        if (!hasValue) throw InputError(fmt::format("The option {} needs a value behind it.", option));
-        const std::string_view value = argv[++k];
-        if (option == "-name") run.setName(std::string(value));
-        else if (option == "-tmax") run.setTimeMax(numberOf(option, value));
-        else if (option == "-dt") run.setTimeStep(numberOf(option, value));
-        else run.setSaveCount(stepsOf(option, value));
+        if (option == "-r") {
+            const std::filesystem::path file = k + 1 < argc && argv[k + 1][0] != '-' ? argv[++k] : "";
+            if (restart) restart(file);
+            else run.restartFrom(file.empty() ? run.restartFile() : file);
+            continue;
+        }
+        const auto found = std::ranges::find(options, option, &MercuryOption::name);
+        if (found == options.end()) {
+            std::vector<std::string_view> names{"-name"};
+            for (const MercuryOption& one : options) names.push_back(one.name);
+            throw InputError(fmt::format("There is no option {}; solve(argc, argv) knows {} and -r.", option,
+                                         fmt::join(names, ", ")));
+        }
+        std::vector<double> values;
+        while (values.size() < found->count) values.push_back(numberOf(option, valueOf(option)));
+        found->set(values);
     }
-    if (goesOn) run.restartFrom(run.restartFile());
 }
 
 }  // namespace pendular

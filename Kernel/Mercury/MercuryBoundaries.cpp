@@ -205,6 +205,11 @@ FluxCount FluxBoundary::count() const {
     return prescribed ? own : sceneThatHasIt().fluxPlaneHandler.countOf(number);
 }
 
+void MercuryBoundaryHandler::setWriteVTK(bool write) {
+    if (write)
+        scene->logger(LogLevel::Warn, "boundaryHandler.setWriteVTK(): boundaries have no pictures here.");
+}
+
 void MercuryBoundaryHandler::removeObject(std::size_t number) {
     getObject(number)->stop();
     removed.push_back(std::move(all[number]));

@@ -201,8 +201,8 @@ public:
     void clear() {
         while (!all.empty()) removeObject(all.size() - 1);
     }
-    /// Without effect: boundaries have no pictures.
-    void setWriteVTK(bool /*write*/) {}
+    /// Without effect: boundaries have no pictures, as a line of the log says.
+    void setWriteVTK(bool write);
     template <std::derived_from<MercuryBoundary> Boundary>
     Boundary* copyAndAddObject(const Boundary* boundary) {
         return copyAndAddObject(*boundary);

@@ -74,6 +74,10 @@ struct CGPoint {
         [[nodiscard]] double getX() const { return place.x(); }
         [[nodiscard]] double getY() const { return place.y(); }
         [[nodiscard]] double getZ() const { return place.z(); }
+        // As Tools/port-from-mercury.sh makes of them.
+        [[nodiscard]] double x() const { return place.x(); }
+        [[nodiscard]] double y() const { return place.y(); }
+        [[nodiscard]] double z() const { return place.z(); }
     };
     Coordinates coordinates;
     double number = 0, volume = 0, density = 0;  // density: kg/m^3
@@ -97,7 +101,7 @@ class MercuryCG {
 public:
     virtual ~MercuryCG() = default;
 
-    MercuryNoFile statFile;  // addOutput(FieldOutput()) writes files of fields
+    MercuryNoFile statFile{FileType::ONE_FILE};  // addOutput(FieldOutput()) writes files of fields
 
     /// m, of the function: the cut-off of Lucy and Heaviside, and a third of that of Gauss.
     void setWidth(double value) { width = value, last.reset(); }
@@ -235,6 +239,12 @@ public:
     [[nodiscard]] Iterator end() const { return Iterator(all.end()); }
     void sample() {
         for (const auto& one : all) one->sample(*scene);
+    }
+    /// Of how many a file was asked for.
+    [[nodiscard]] std::size_t countOfFiles() const {
+        std::size_t count = 0;
+        for (const auto& one : all) count += one->statFile.isWritten() ? 1 : 0;
+        return count;
     }
 
 private:

@@ -10,9 +10,6 @@
 
 namespace pendular {
 
-/// The name of a scene that was given none.
-static constexpr std::string_view nameOfUnnamed = "pendular";
-
 /// It is called when the output is added, and again when the scene has been set up, which is when the
 /// settings count.
 void MercuryFiles::prepare(Scene& scene) {

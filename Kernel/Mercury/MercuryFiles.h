@@ -36,11 +36,19 @@ private:
     std::size_t saveCount = 0;
 };
 
-/// A file that is not written here: all that is set of it is without effect.
-struct MercuryNoFile {
-    void setFileType(FileType /*type*/) {}
+/// A file that is not written here: all that is set of it is without effect, and a run whose driver asks for
+/// one says so in its log.
+class MercuryNoFile {
+public:
+    explicit MercuryNoFile(FileType given) : type(given) {}
+    void setFileType(FileType asked) { type = asked; }
     void setSaveCount(std::size_t /*steps*/) {}
     void setName(const std::string& /*name*/) {}
+    [[nodiscard]] FileType getFileType() const { return type; }
+    [[nodiscard]] bool isWritten() const { return type != FileType::NO_FILE; }
+
+private:
+    FileType type;
 };
 
 /// Numbers as MercuryDPM's `random` gives them; the same in each run, and other numbers than there.
@@ -69,6 +77,9 @@ struct MercurySettings {
 /// NAME.data, NAME.fstat and NAME.ene of a scene without setName() are not written.
 class MercuryFiles {
 public:
+    /// The name of a scene that was given none.
+    static constexpr std::string_view nameOfUnnamed = "pendular";
+
     explicit MercuryFiles(std::shared_ptr<MercurySettings> of) : settings(std::move(of)) {}
 
     void prepare(Scene& scene);

@@ -130,8 +130,7 @@ public:
         return wall.getDistanceAndNormal(grain, distance, normal);
     }
     [[nodiscard]] const TriangleWall& getWall() const { return wall; }
-    /// Without effect.
-    void write(std::ostream& /*to*/) const {}
+    void write(std::ostream& to) const = delete;  // ParaViewOutput has walls
 
 private:
     TriangleWall wall;

@@ -87,8 +87,14 @@ double GrainReference::getMass() const {
 }
 
 Vec3D GrainReference::getForce() const {
-    if (isFixed()) return Vec3D::Zero();
+    if (isFixed()) return toEigen(loadOfHeld().force);
     return getMass() * toEigen(handler->store().acceleration[place()]);
+}
+
+/// A grain that is held has no accelerations, of which the forces of others follow.
+GrainLoad GrainReference::loadOfHeld() const {
+    handler->finishStep();
+    return handler->loadAt ? handler->loadAt(place()) : GrainLoad{};
 }
 
 double GrainReference::getInertia() const {
@@ -100,7 +106,8 @@ double GrainReference::getInertia() const {
 
 Vec3D GrainReference::getTorque() const {
     const ParticleStore& grains = handler->store();
-    if (isFixed() || !grains.hasSpin) return Vec3D::Zero();
+    if (!grains.hasSpin) return Vec3D::Zero();
+    if (isFixed()) return toEigen(loadOfHeld().torque);
     return getInertia() * toEigen(grains.rotation[place()].angularAcceleration);
 }
 

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <atomic>
+#include <concepts>
 #include <functional>
 #include <map>
 #include <mutex>
 #include <span>
 
 #include "Kernel/Particles/GrainFilms.h"
+#include "Kernel/Particles/GrainLoad.h"
 #include "Kernel/Particles/SphericalParticle.h"
 
 namespace pendular {
@@ -37,13 +39,13 @@ public:
     [[nodiscard]] int getSpeciesIndex() const;
     /// Zero in scenes without friction.
     [[nodiscard]] Vec3D getAngularVelocity() const;
-    /// The sum of all forces (N) of the last step, weight included; not kept for a grain held in place, and
-    /// along axes along which it is held: zero.
+    /// The sum of all forces (N) of the last step, weight included; of a grain that is held in place that of
+    /// its contacts alone, and zero along axes along which another one is held.
     /// For a grain of a rigid body it is its mass times its acceleration, so it includes what holds it in the
     /// body.
     [[nodiscard]] Vec3D getForce() const;
-    /// The sum of all torques (N m) about its centre in the last step. As the force it is not kept for a
-    /// grain that is held, and zero about axes about which it is held; zero without friction.
+    /// The sum of all torques (N m) about its centre in the last step; as the force, of a grain that is held
+    /// that of its contacts, and zero about axes about which another one is held. Zero without friction.
     [[nodiscard]] Vec3D getTorque() const;
     /// kg m^2, about its centre; infinite for a grain that is held altogether. Of a grain of a rigid body: of
     /// a sphere of its share of the mass.
@@ -83,6 +85,7 @@ public:
 
 private:
     void setFixed(bool fix);
+    [[nodiscard]] GrainLoad loadOfHeld() const;
     void setSpeciesIndex(int index, const SpeciesOwner* owner);
     [[nodiscard]] std::uint32_t place() const;
     /// Throws InputError for a grain of a rigid body.
@@ -142,6 +145,11 @@ public:
     /// Adds a copy of the grain. Its mass is that of a solid sphere of its species' density. Throws
     /// InputError when 2^31 grains have been added in all.
     GrainReference copyAndAddObject(const SphericalParticle& grain);
+    /// A copy of what a pointer shows. (A template, so that {} is no pointer.)
+    template <std::same_as<SphericalParticle> One>
+    GrainReference copyAndAddObject(const One* grain) {
+        return copyAndAddObject(*grain);
+    }
     /// Removes the grain with this identity; its contacts and bridges end. The identities of all others stay,
     /// and this one is not given again. Throws InputError if there is no such grain, or if it is part of a
     /// rigid body.
@@ -301,6 +309,7 @@ private:
     std::function<void(std::uint32_t)> beforeRemoval;
     std::function<void()> finishing;
     std::function<std::size_t()> countOfAll;
+    std::function<GrainLoad(std::uint32_t)> loadAt;  // of the grain at a place, by its contacts
     mutable std::atomic<bool> unfinished = false;
     mutable std::mutex finishingNow;
 };

@@ -68,6 +68,11 @@ public:
         of.countOfAll = std::move(function);
     }
 
+    /// The function that returns what the contacts of the grain at a place give it.
+    static void callForLoads(ParticleHandler& of, std::function<GrainLoad(std::uint32_t)> function) {
+        of.loadAt = std::move(function);
+    }
+
     /// The scene begins: no column is added from now on.
     static void closeColumns(ParticleHandler& of) { of.columnsAreClosed = true; }
     /// Grains have been joined to a rigid body.

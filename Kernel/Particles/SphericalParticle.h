@@ -41,6 +41,10 @@ public:
     void setSpecies(const S* species) {
         speciesIndex = species->getIndex();
         speciesOwner = species->getOwner();
+        if constexpr (requires { species->getDensity(); }) {
+            material = species;
+            densityOf = [](const void* of) { return static_cast<const S*>(of)->getDensity(); };
+        }
     }
     /// Holds the grain where it is: an infinite mass, and no motion but what is set from then on.
     void fixParticle() {
@@ -58,6 +62,22 @@ public:
     }
 
     [[nodiscard]] double getRadius() const { return radiusValue; }
+    /// kg, by the density that its species has now; infinite for a grain that is held altogether. Throws
+    /// InputError without a radius, or a species with a density.
+    [[nodiscard]] double getMass() const {
+        checkValue("SphericalParticle", "radius", radiusValue, "m", radiusRange);
+        checkValue("SphericalParticle", "density of its species", material ? densityOf(material) : unset,
+                   "kg/m^3", positive);
+        if (fixed) return infinity;
+        const double density = densityOf(material);
+        const bool isDisc = speciesOwner && speciesOwner->grainsAreDiscs();
+        return isDisc ? discMass(radiusValue, density) : sphereMass(radiusValue, density);
+    }
+    /// m^3, of a sphere of its radius.
+    [[nodiscard]] double getVolume() const {
+        checkValue("SphericalParticle", "radius", radiusValue, "m", radiusRange);
+        return sphereMass(radiusValue, 1);
+    }
     [[nodiscard]] const Vec3D& getPosition() const { return positionValue; }
     [[nodiscard]] const Vec3D& getVelocity() const { return velocityValue; }
     [[nodiscard]] const Vec3D& getAngularVelocity() const { return spinValue; }
@@ -82,6 +102,8 @@ private:
     double liquidVolume = 0;
     int speciesIndex = -1;
     const SpeciesOwner* speciesOwner = nullptr;
+    const void* material = nullptr;              // its species, whatever its type
+    double (*densityOf)(const void*) = nullptr;  // kg/m^3
     bool fixed = false;
     HeldAxes heldAxes;
 };

@@ -42,6 +42,13 @@ void Run::setTimeMax(double end) {
     timeMaxIsSet = true;
 }
 
+void Run::startAt(double time) {
+    checkValue("Simulation", "time of the start", time, "s", notNegative);
+    requireSetUp("time of the start");
+    timeBefore = time;
+    stepsBefore = steps;
+}
+
 void Run::requireTimeStep() const {
     checkValue("Simulation", "time step", timeStep, "s", timeStepRange);
     if ((underWay & Within::Whole) != 0 && !timeMaxIsSet)

@@ -183,6 +183,8 @@ protected:
     void keepOutput(KeptOutput output);
     void prepareOutputs();
 
+    /// The run begins at this time (s), that of a state of another program, and not at 0. At set-up only.
+    void startAt(double time);
     /// Throws InputError.
     void requireTimeStep() const;
     void requireBegun(std::string_view call) const;

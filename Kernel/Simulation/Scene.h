@@ -312,8 +312,11 @@ public:
 protected:
     Scene();
     void setLaws(ContactLaws& of);
+    /// The scene was set up by the state of another program: setupInitialConditions() is not called.
+    void leaveOutInitialConditions() { hasInitialConditions = true; }
 
 private:
+    bool hasInitialConditions = false;  // of another program
     class Inside;
     friend class SettingNames;  // of SelfTests: all that parts of the step compare at a restart
 

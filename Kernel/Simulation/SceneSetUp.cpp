@@ -51,7 +51,7 @@ void Scene::Inside::refuseUnlessBridgesJoin() const {
 
 void Scene::Inside::setUp() {
     ParticleHandler& particles = scene.particleHandler;
-    scene.setupInitialConditions();
+    if (!scene.hasInitialConditions) scene.setupInitialConditions();
     // The account tells what slides at walls that wear.
     account.noteWear(!wornWalls(scene.wallHandler).empty());
     scene.prepareOutputs();

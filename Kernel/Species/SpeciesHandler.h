@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -46,6 +47,11 @@ public:
         added.index.value = static_cast<int>(all.size()) - 1;
         added.index.owner = this;
         return &added;
+    }
+    /// A copy of what a pointer shows. (A template, so that {} is no pointer.)
+    template <std::same_as<S> One>
+    S* copyAndAddObject(const One* species) {
+        return copyAndAddObject(*species);
     }
     [[nodiscard]] std::size_t getSize() const { return all.size(); }
     [[nodiscard]] bool isEmpty() const { return getSize() == 0; }

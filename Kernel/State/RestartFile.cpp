@@ -157,6 +157,12 @@ void checkRestartFile(const fs::path& path) {
     Seal seal;
     const int found = std::sscanf(text.data(), "Pendular restart file\nformat %d\nbytes %llu\nchecksum %llx",
                                   &seal.format, &seal.bytes, &seal.checksum);
+    const std::string_view start(text.data(), length);
+    if (start.starts_with("MercuryDPM ") || start.starts_with("restart_version "))
+        refuse(
+            "is one of MercuryDPM's, in text: a scene of Kernel/MercuryScene.h (Mercury3D) starts from it, "
+            "by "
+            "readRestartFile()");
     if (found < 1) refuse("is not a restart file of Pendular, or its start is damaged");
     if (seal.format >= 1 && seal.format != restartFormat)
         refuse(

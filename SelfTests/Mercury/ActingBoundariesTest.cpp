@@ -164,71 +164,10 @@ TEST(MercuryPrograms, loadingDataRestart) {
                                    said(head + species + "Boundaries 1\nPeriodicBoundary\n"),
                                    said(head + species + "Particles 1\nBP 0 0 0\n")})
         EXPECT_TRUE(isOneSentence(bad)) << bad;
-    helpers::writeToFile(restart, head + species);
+    helpers::writeToFile(restart, head + species + wall + rest);
     const std::string typed =
         refusal([&] { MercuryScene<LinearViscoelasticSpecies>().readRestartFile(restart); });
     EXPECT_TRUE(isOneSentence(typed) && contains(typed, "Mercury3D")) << typed;
-}
-
-// What a restart file of text has and a driver must set up itself; each sentence has the line.
-TEST(MercuryRestart, saysWhatItDoesNotTakeOver) {
-    const TestFolder folder;
-    const std::string file = folder.name() + ".restart",
-                      head = "restart_version 1.0 name Fall\nxMin 0 xMax 1\nSpecies 1\n",
-                      species = "LinearViscoelasticSpecies id 0 rho 2000 k 1000 disp 0\n",
-                      walls = "Walls 1\nInfiniteWall indSpecies 0 position 0 0 0 normal 0 0 -1\n",
-                      grain = "Particles 1\nBaseParticle indSpecies 0 position 0 0 1 velocity 0 0 0 ",
-                      contact =
-                          "Interactions 1\nLinearViscoelasticInteraction particleWallIds 0 0 timeStamp 3 ";
-    const auto said = [&](const std::string& rest) {
-        helpers::writeToFile(file, head + species + rest);
-        return refusal([&] { static_cast<void>(readMercuryRestart(file)); });
-    };
-    EXPECT_EQ(said(walls + grain + "radius 0.5 invMass 2\n" + contact + "force 0 0 1 slidingSpring 0 0 0\n"),
-              "");
-    EXPECT_EQ(said(""), "");
-    // Coefficients of rolling and torsion have static ones beside them, which are the same mostly.
-    const auto rolling = [&](const char* ofStatic) {
-        helpers::writeToFile(
-            file,
-            fmt::format("restart_version 1.0 name Fall\nSpecies 1\nLinearViscoelasticFrictionSpecies id 0 "
-                        "rho 2000 k 1000 rollingStiffness 400 rollingFrictionCoefficient 0.1 "
-                        "rollingFrictionCoefficientStatic {} torsionStiffness 400\n",
-                        ofStatic));
-        return refusal([&] {
-            const auto species = readMercuryRestart(file).species.at(0);
-            EXPECT_EQ(species.type, "LinearViscoelasticFrictionSpecies");
-            EXPECT_EQ(species.fields.size(), 5u);
-        });
-    };
-    EXPECT_EQ(rolling("0.1"), "");
-    const std::string other = rolling("0.2");
-    EXPECT_TRUE(isOneSentence(other) && contains(other, "rollingFrictionCoefficientStatic is not")) << other;
-    struct Case {
-        std::string rest, phrase;
-        int line;
-    };
-    for (const auto& [rest, phrase, line] : std::vector<Case>{
-             {"LinearViscoelasticMixedSpecies idMixed 0 1 k 3\n", "values of pairs", 5},
-             {grain + "radius 0.5 invMass 0\n", "a grain is held", 6},
-             {grain + "rad 0.5\n", "no grain", 6},
-             {grain + "radius big\n", "big", 6},
-             {grain + "radius\n", "a number is missing", 6},
-             {"Particles 2\n", "the file ends here", 5},
-             {"Particles -1\n", "no number of things", 5},
-             {"Particles 1e12\n", "no number of things", 5},
-             {"Walls 1\nScrew id 0\n", "'Screw' is no plane", 6},
-             {"Walls 1\nInfiniteWall indSpecies 0 position 0 0 0\n", "is no plane", 6},
-             {"Boundaries 1\nPeriodicBoundary\n", "boundaries are not taken over", 5},
-             {contact + "slidingSpring 0 1e-9 0\n", "'slidingSpring', which is not taken over", 6},
-             {contact + "bonded 1\n", "'bonded'", 6},
-             {"xMax\n", "a number is missing", 5}}) {
-        const std::string text = said(rest);
-        EXPECT_TRUE(isOneSentence(text) && contains(text, phrase)) << rest << text;
-        EXPECT_TRUE(contains(text, fmt::format("line {}", line))) << rest << text;
-    }
-    EXPECT_TRUE(
-        isOneSentence(refusal([&] { static_cast<void>(readMercuryRestart(folder.path() / "none")); })));
 }
 
 }  // namespace

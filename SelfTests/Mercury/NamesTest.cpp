@@ -85,6 +85,99 @@ TEST(MercuryNames, errorFatalAndAssertEndTheProgram) {
     EXPECT_EQ(runError([] { ::logger.assert_always(true, "%", 2), ::logger.assert_debug(true, "no"); }), "");
 }
 
+// %P has P digits, %P.W a field of W characters, as MercuryDPM's page on its logger has it.
+TEST(MercuryNames, loggerTakesDigitsAndWidths) {
+    std::string said;
+    setLogSink([&](LogLevel, std::string_view line) { said += std::string(line) + '|'; });
+    ::logger(INFO, "t=%3.6, %.8|%4, %", 0.001, 2.5, 1.0 / 3, 0.5);
+    ::logger(INFO, "v=%3 n=%.5.", Vec3D(1.0 / 3, 2, 0), 7);
+    ::logger(INFO, "p=%. 5\\% of %, %12", 1.5, "all", 1.0 / 3, Flusher::NO_FLUSH);
+    setLogSink({});
+    EXPECT_TRUE(contains(said, "t=0.001 , 2.5     |0.3333, 0.5")) << said;
+    EXPECT_TRUE(contains(said, "v=0.333 2 0 n=7    .")) << said;
+    EXPECT_TRUE(contains(said, "p=1.5. 5% of all, 0.333333333333")) << said;
+    EXPECT_EQ(runError([] { ::logger(ERROR, "% of %2", 3, 0.123); }), "3 of 0.12");
+}
+
+// What MercuryDPM would write into files that are not written here is said, once.
+TEST(MercuryNames, filesThatAreNotWrittenAreNamed) {
+    const TestFolder folder;
+    const auto saidBy = [&](bool asks) {
+        std::string said;
+        Pile scene;
+        scene.setQuiet(false);
+        scene.setName(folder.name());
+        scene.setFileType(FileType::NO_FILE);
+        auto* const cg = scene.cgHandler.copyAndAddObject(CG<CGCoordinates::Z>(0.01, 2));
+        if (asks) scene.getInteractionFile().setFileType(FileType::ONE_FILE);
+        else cg->statFile.setFileType(FileType::NO_FILE);
+        setLogSink([&](LogLevel level, std::string_view line) {
+            if (level == LogLevel::Warn) said += line;
+        });
+        scene.boundaryHandler.setWriteVTK(asks);
+        scene.solve();
+        setLogSink({});
+        return said;
+    };
+    const std::string asked = saidBy(true), plain = saidBy(false);
+    for (const char* const name :
+         {"interactionFile", "NAME.stat of its 1", "boundaryHandler.setWriteVTK()"}) {
+        EXPECT_TRUE(contains(asked, name)) << asked;
+        EXPECT_EQ(plain.find(name), std::string::npos) << plain;
+    }
+}
+
+// A grain that is held has the force and the torque of its contacts: those of the other one, reversed, and of
+// equal arms the same.
+TEST(MercuryNames, heldGrainsHaveForceAndTorque) {
+    MercuryScene<Friction> scene;
+    auto* const species = scene.speciesHandler.copyAndAddObject(Friction());
+    species->setDensity(2000), species->setStiffness(1000), species->setDissipation(0);
+    species->setSlidingStiffness(300), species->setSlidingFrictionCoefficient(0.5);
+    SphericalParticle grain(species);
+    grain.setRadius(0.01), grain.setPosition({0, 0, 0.0198}), grain.setVelocity({0.1, 0, 0});
+    const GrainReference above = scene.particleHandler.copyAndAddObject(grain);
+    grain.setPosition({0, 0, 0}), grain.fixParticle();
+    const GrainReference held = scene.particleHandler.copyAndAddObject(grain);
+    scene.setTimeStep(1e-5);
+    scene.setTimeMax(1e-3);
+    scene.setQuiet();
+    scene.solve();
+    EXPECT_LT(held.getForce().z(), -0.1);
+    EXPECT_GT(held.getForce().x(), 1e-3);
+    // Forces are sums in whole quanta, 2^-56 of the largest ones.
+    EXPECT_LT((held.getForce() + above.getForce()).norm(), 1e-13);
+    EXPECT_GT(above.getTorque().norm(), 1e-5);
+    EXPECT_LT((held.getTorque() - above.getTorque()).norm(), 1e-15);
+}
+
+// Before a grain is added it has a mass by its species, and handlers take what a pointer shows.
+TEST(MercuryNames, grainsHaveAMassBeforeTheyAreAdded) {
+    MercuryScene<Friction> scene;
+    Friction own;
+    own.setDensity(2000), own.setStiffness(1000);
+    Friction* const species = scene.speciesHandler.copyAndAddObject(&own);
+    EXPECT_EQ(species->getDensity(), 2000);
+    SphericalParticle grain;
+    for (const std::string& said : {refusal([&] { static_cast<void>(grain.getMass()); }),
+                                    refusal([&] { static_cast<void>(grain.getVolume()); })})
+        EXPECT_TRUE(isOneSentence(said) && contains(said, "radius")) << said;
+    grain.setRadius(0.01);
+    const std::string none = refusal([&] { static_cast<void>(grain.getMass()); });
+    EXPECT_TRUE(isOneSentence(none) && contains(none, "species")) << none;
+    grain.setSpecies(species);
+    EXPECT_EQ(grain.getMass(), sphereMass(0.01, 2000));
+    EXPECT_EQ(grain.getVolume(), sphereMass(0.01, 1));
+    EXPECT_EQ(scene.particleHandler.copyAndAddObject(&grain)->getMass(), grain.getMass());
+    species->setDensity(1000);
+    EXPECT_EQ(grain.getMass(), sphereMass(0.01, 1000));
+    scene.setDimension(2);
+    EXPECT_EQ(grain.getMass(), discMass(0.01, 1000));
+    Mercury3D any;
+    const Friction* const added = any.speciesHandler.copyAndAddObject(&own);
+    EXPECT_EQ(SphericalParticle(any.speciesHandler.getObject(0)).getSpeciesIndex(), added->getIndex());
+}
+
 TEST(MercuryNames, helpersCheckAndWrite) {
     EXPECT_EQ(runError([] { helpers::check(1, 1.0625, 0.0625, "v"); }), "");
     EXPECT_EQ(runError([] { helpers::check(1, 1.5, 0.25, "v"); }), "v is 1; it must be 1.5 up to 0.25.");
@@ -106,7 +199,7 @@ TEST(MercuryNames, theScriptMakesTheMechanicalChanges) {
         EXPECT_EQ(result.exitCode, 0);
         return result.output;
     };
-    for (const auto& [there, here] : std::array<std::pair<const char*, const char*>, 14>{{
+    for (const auto& [there, here] : std::array<std::pair<const char*, const char*>, 20>{{
              {"double z = p->getPosition().Z + v[2].X;", "double z = p->getPosition().z() + v[2].x();"},
              {"// v.X stays in a comment", "// v.X stays in a comment"},
              {"Vec3D::dot(a, getMax()) * Vec3D::cross(b, c).getLength()",
@@ -124,6 +217,16 @@ TEST(MercuryNames, theScriptMakesTheMechanicalChanges) {
               "std::vector<SphericalParticle*> all{new SphericalParticle};"},
              {"void computeExternalForces(BaseParticle* p) override",
               "void computeExternalForces(MercuryForcedGrain p) override"},
+             {"void computeExternalForces (BaseParticle *CI)",
+              "void computeExternalForces(MercuryForcedGrain CI)"},
+             {"Vec3D::getDistance(p->getPosition() - o, q) + Vec3D::getDistanceSquared(a, b)",
+              "((p->getPosition() - o) - (q)).norm() + ((a) - (b)).squaredNorm()"},
+             {"Vec3D::getLength(a + f(b)) * Vec3D::getUnitVector(c) + Vec3D::getLengthSquared(d)",
+              "(a + f(b)).norm() * (c).normalized() + (d).squaredNorm()"},
+             {"v.getX() + p->getPosition().getZ() - s.getXMax()",
+              "v.x() + p->getPosition().z() - s.getXMax()"},
+             {"v.setX(f(1)); s.setXMax(3); v.normalise();", "v.x() = f(1); s.setXMax(3); v.normalize();"},
+             {"v.getComponent(k) + v.getLength ()", "v[k] + v.norm()"},
              {"setXMax(MIN.Xa, atX)", "setXMax(MIN.Xa, atX)"},
              {"auto i = dynamic_cast<BondedInteraction*>(interactionHandler.getInteraction(f(p), q, 0));",
               "auto i = interactionHandler.getInteraction(f(p), q, 0);"},
@@ -558,6 +661,19 @@ TEST(MercuryNames, argumentsOfMain) {
     for (const std::string& text :
          {said("-threads", "2"), said("-tmax"), said("-dt", "much"), said("-savecount", "1.5")})
         EXPECT_TRUE(isOneSentence(text)) << text;
+    for (const char* const option : {"-saveCount", "-savecount", "-save_count"}) {
+        Pile other;
+        other.setFileType(FileType::NO_FILE);
+        const char* const words[] = {"program", option,     "5", "-zmax", "0.5", "-xmin",
+                                     "-1",      "-gravity", "0", "-1",    "2.5", "-saveCountData",
+                                     "3"};
+        other.solve(13, words);  // ten steps
+        EXPECT_EQ(other.printed, 3) << option;
+        EXPECT_EQ(other.getZMax(), 0.5);
+        EXPECT_EQ(other.getXMin(), -1);
+        EXPECT_EQ(other.getGravity(), Vec3D(0, -1, 2.5));
+        EXPECT_EQ(other.dataFile.getSaveCount(), 3u);
+    }
     Pile again;
     const char* const restart[] = {"program", "-r", "-name", "other"};
     takeArguments(again, 4, restart);

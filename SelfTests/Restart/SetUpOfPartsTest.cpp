@@ -596,12 +596,13 @@ TEST(SetUpOfParts, valuesOfFunctionsThatAreInfinite) {
 
 /// Every part of a step in the kernel, and where its settings are changed.
 const std::set<std::string> partsThatAreTested{
-    "FluidPart",     "HeatPart",     "BondPart",     "GrainCopies",       "FluxPlanePart",
-    "OutletPart",    "InletPart",    "FlowPart",     "AdaptivePart",      "AccountPart",
-    "SprayPart",     "FilmMassPart", "LiquidPart",   "MercuryInsertions", "MercuryActions",
-    "MercuryPaths",  "DrivePart",    "MembranePart",  // SetUpOfWallsTest.cpp
-    "GrainPart",     "BodyPart",                      // no settings: bodies are part of the state
-    "MercuryForces", "MercuryBonds"};                 // a function of the driver; what is asked for in a run
+    "FluidPart",     "HeatPart",     "BondPart",        "GrainCopies",       "FluxPlanePart",
+    "OutletPart",    "InletPart",    "FlowPart",        "AdaptivePart",      "AccountPart",
+    "SprayPart",     "FilmMassPart", "LiquidPart",      "MercuryInsertions", "MercuryActions",
+    "MercuryPaths",  "DrivePart",    "MembranePart",       // SetUpOfWallsTest.cpp
+    "GrainPart",     "BodyPart",                           // no settings: bodies are part of the state
+    "MercuryForces", "MercuryBonds", "MercuryHistories"};  // a function of the driver; what is asked for,
+                                                           // read
 
 TEST(SetUpOfParts, areThoseOfAllParts) {
     std::set<std::string> parts;

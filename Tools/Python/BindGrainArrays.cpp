@@ -52,10 +52,16 @@ py::array masses(const PythonScene& scene) {
     const GrainMasses masses(scene.scene().particleHandler.store(), scene.scene().laws());
     return copyOf<double, 1>(scene, [&](const auto&, auto place, double* to) { *to = masses(place); });
 }
+/// For what the kernel tells of one grain.
+GrainReference grainAt(const PythonScene& scene, const ParticleStore& grains, std::uint32_t place) {
+    return const_cast<Scene&>(scene.scene()).particleHandler.getObject(grains.identity[place]);
+}
 py::array forces(const PythonScene& scene) {
     const GrainMasses masses(scene.scene().particleHandler.store(), scene.scene().laws());
-    return copyOf<double, 3>(
-        scene, [&](const auto& grains, auto place, double* to) { put(to, forceOn(grains, masses, place)); });
+    return copyOf<double, 3>(scene, [&](const auto& grains, auto place, double* to) {
+        const bool isHeld = grains.translation[place].inverseMass == 0;
+        put(to, isHeld ? toVector(grainAt(scene, grains, place).getForce()) : forceOn(grains, masses, place));
+    });
 }
 py::array identities(const PythonScene& scene) {
     return copyOf<std::int64_t, 1>(
@@ -64,10 +70,6 @@ py::array identities(const PythonScene& scene) {
 py::array species(const PythonScene& scene) {
     return copyOf<std::int64_t, 1>(
         scene, [](const auto& grains, auto place, auto* to) { *to = grains.species[place]; });
-}
-/// For what the kernel tells of one grain.
-GrainReference grainAt(const PythonScene& scene, const ParticleStore& grains, std::uint32_t place) {
-    return const_cast<Scene&>(scene.scene()).particleHandler.getObject(grains.identity[place]);
 }
 py::array films(const PythonScene& scene) {
     return copyOf<double, 1>(scene, [&](const auto& grains, auto place, double* to) {
