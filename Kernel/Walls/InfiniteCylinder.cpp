@@ -47,6 +47,7 @@ WallSurface InfiniteCylinder::surfaceInBody(const SceneSphere& around) const {
     const Vector<double> half = around.radius * axis;
     WallSurface surface;
     surface.endless = true;
+    surface.axis = axis;
     surface.polygons = turnedAround(axis, middle - half, cylinderRadius, middle + half, cylinderRadius);
     if (!inside) return surface;
     const Vector<double> a = anyAcross(axis), b = cross(axis, a);
