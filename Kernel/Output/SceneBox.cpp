@@ -65,10 +65,12 @@ void SceneBox::take(const Scene& scene) {
     const Box setUp = boxOfSetUp(scene);
     Box all = grains;
     all.include(setUp);
+    Box reached = all;
+    reached.include(taken);
     const PeriodicBox& periodic = boxOfContacts(scene);
     double longest = 0;
     for (const auto axis : axes)
-        longest = std::max({longest, periodic.length.*axis, all.highest.*axis - all.lowest.*axis});
+        longest = std::max({longest, periodic.length.*axis, reached.highest.*axis - reached.lowest.*axis});
     const bool isFirst = isEmpty();
     const double slack = 1e-9 * longest;
     const auto isTooSmall = [&] {
@@ -83,7 +85,7 @@ void SceneBox::take(const Scene& scene) {
     const Vector<double> gravity = toVector(scene.getGravity());
     const auto roomAlong = [&](auto axis, double direction) {
         const bool isUpwards = direction * gravity.*axis < -0.5 * norm(gravity);
-        const double side = isUpwards ? all.highest.*axis - all.lowest.*axis : longest;
+        const double side = isUpwards ? reached.highest.*axis - reached.lowest.*axis : longest;
         return radius + std::max(radius, share * side);
     };
     const Box before = taken;

@@ -199,12 +199,13 @@ WallSurface WallSurface::placed(const Pose& pose) const {
     return result;
 }
 
-std::vector<Polygon> turnedAround(const Vector<double>& axis, const Vector<double>& begin, double beginRadius,
-                                  const Vector<double>& end, double endRadius) {
-    const Vector<double> a = anyAcross(axis), b = cross(axis, a);
+std::vector<Polygon> turnedAround(const Vector<double>& axis, const Vector<double>& across,
+                                  const Vector<double>& begin, double beginRadius, const Vector<double>& end,
+                                  double endRadius) {
+    const Vector<double> other = cross(axis, across);
     const auto outward = [&](int k) {
         const double angle = 2 * std::numbers::pi * (k % facetsAround) / facetsAround;
-        return std::cos(angle) * a + std::sin(angle) * b;
+        return std::cos(angle) * across + std::sin(angle) * other;
     };
     std::vector<Polygon> facets;
     for (int k = 0; k < facetsAround; ++k) {

@@ -45,10 +45,12 @@ struct WallSurface {
 inline constexpr int facetsAround = 64;
 
 /// The quadrangles (triangles where a radius is zero) between two circles about an axis (a unit vector).
+/// @param across unit, across the axis, to the first corners
 /// @param begin m, a point on the axis; @param end m, another
 /// @param beginRadius m; @param endRadius m
-std::vector<Polygon> turnedAround(const Vector<double>& axis, const Vector<double>& begin, double beginRadius,
-                                  const Vector<double>& end, double endRadius);
+std::vector<Polygon> turnedAround(const Vector<double>& axis, const Vector<double>& across,
+                                  const Vector<double>& begin, double beginRadius, const Vector<double>& end,
+                                  double endRadius);
 
 /// The part of a polygon in all half-spaces; without corners where there is none. Source: Sutherland and
 /// Hodgman, Commun. ACM 17 (1974) 32.
