@@ -20,7 +20,8 @@ struct HalfSpace {
     double offset;          // m
 };
 
-/// A sphere around a scene, at which surfaces without end are cut off.
+/// A sphere around a scene, at which surfaces without end are cut off. Without a radius it leaves of a
+/// surface what is nearest to its centre.
 struct SceneSphere {
     Vector<double> centre;  // m
     double radius;          // m
