@@ -188,6 +188,7 @@ TEST(WallsOfFrames, aDrumIsWholeAndTheSameInAllFrames) {
               {{.position = {0, 0, -0.018}, .velocity = {0.3, 0, 0}}, {.position = {-0.01, 0, -0.012}}}, {});
     InfiniteCylinder drum;
     drum.set({0, 1, 0}, {0, 0, 0}, radius, CylinderSide::Inside);
+    drum.setAngularVelocity({0, 6, 0}, {0, 0, 0});
     scene.add(drum);
     scene.setPeriodic(1, -0.5 * length, 0.5 * length);
     if (Hdf5File::isAvailable()) scene.addOutput(Hdf5Output());
@@ -195,8 +196,10 @@ TEST(WallsOfFrames, aDrumIsWholeAndTheSameInAllFrames) {
     const auto frames = wallsIn(folder);
     ASSERT_EQ(frames.size(), 11u);
     for (const auto& [step, walls] : frames) {
-        EXPECT_EQ(walls.points, frames.at(0).points) << step;
         EXPECT_EQ(walls.ends, frames.at(0).ends) << step;
+        ASSERT_EQ(walls.points.size(), frames.at(0).points.size());
+        for (std::size_t k = 0; k < walls.points.size(); ++k)  // its motion is rounded
+            EXPECT_NEAR(norm(walls.points[k] - frames.at(0).points[k]), 0, 1e-15) << step;
     }
     const Box box = boxOf(frames.at(0).points);
     for (const double high : {box.highest.x, box.highest.z, -box.lowest.x, -box.lowest.z})
@@ -244,7 +247,7 @@ TEST(WallsOfFrames, aFloorIsWidenedSeldom) {
     std::set<double> lengths;
     for (const auto& [step, walls] : frames) {
         const Box box = boxOf(walls.points);
-        EXPECT_GE(box.highest.x, speed * static_cast<double>(step) * 1e-5);
+        EXPECT_GE(box.highest.x, speed * static_cast<double>(step) * 1e-5 - 1e-9);
         EXPECT_GE(box.highest.y - box.lowest.y, 0.4 * (box.highest.x - box.lowest.x)) << "a needle";
         EXPECT_GE(box.highest.x - box.lowest.x, lengths.empty() ? 0 : *lengths.rbegin())
             << "it never shrinks";
