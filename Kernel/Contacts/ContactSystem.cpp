@@ -273,6 +273,7 @@ void ContactSystem::bringBackPlaced(const Grains& grains, std::span<const std::u
 }
 
 double ContactSystem::largestFilmContactGap() const {
+    if (!species) return 0;  // before prepare(), for filmReach()
     double largest = 0;
     const auto count = static_cast<int>(species->speciesCount());
     for (int a = 0; a < count; ++a)

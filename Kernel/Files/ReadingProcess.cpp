@@ -76,6 +76,16 @@ bool isOfParent(int descriptor) {
            (S_ISREG(file.st_mode) && (fcntl(descriptor, F_GETFL) & O_ACCMODE) != O_RDONLY);
 }
 
+/// What a library prints of a fault ("free(): invalid pointer") is no sentence for the user. Reports of the
+/// sanitizers stay.
+void silence() {
+    if (!limitsAddresses) return;
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere < 0) return;
+    dup2(nowhere, STDOUT_FILENO);
+    dup2(nowhere, STDERR_FILENO);
+}
+
 void closeFilesOfParent(int own) {
     DIR* const folder = opendir("/proc/self/fd");
     if (!folder) return;
@@ -94,6 +104,7 @@ void closeFilesOfParent(int own) {
 [[noreturn]] void run(const ReadingProcess::Limits& limits, int socket,
                       const std::function<void(const ReadingProcess::Channel&)>& work) {
     takeDefaultSignals();
+    silence();
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_CPU, limits.seconds);
     ReadingProcess::allowMemory(limits.memory);
@@ -163,14 +174,15 @@ ReadingProcess::ReadingProcess(const Limits& most, const std::function<void(cons
     if (child < 0) {
         if (isPair) close(ends[0]);
         throw InputError(
-            fmt::format("A file of others is read in a process of its own, and there can be none: {}.",
-                        std::strerror(problem)));
+            fmt::format("The process that is to read a file cannot be started: {}.", std::strerror(problem)));
     }
     socket = ends[0];
     connection = Channel(socket);
-    const timeval silence{longestSilence, 0};
-    setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &silence, sizeof silence);
+    const timeval longest{longestSilence(), 0};
+    setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &longest, sizeof longest);
 }
+
+unsigned ReadingProcess::longestSilence() const { return std::max(shortestPatience, limits.seconds); }
 
 void ReadingProcess::closeChannel() {
     if (socket >= 0) close(socket);
@@ -197,7 +209,7 @@ const std::string& ReadingProcess::howItEnded() {
     do waited = waitpid(child, &status, 0);
     while (waited < 0 && errno == EINTR);
     child = -1;
-    if (isSilent) end = fmt::format("has not answered for {} s", longestSilence);
+    if (isSilent) end = fmt::format("has not answered for {} s", longestSilence());
     else if (waited < 0) end = "has ended";  // its status went to another part of this program
     else end = toText(status, limits);
     return end;

@@ -10,7 +10,9 @@
 #include <functional>
 #include <memory>
 #include <regex>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -40,6 +42,7 @@
 #include "Kernel/Simulation/SumsOverRanks.h"
 #include "Kernel/Simulation/SuperquadricSimulation.h"
 #include "Kernel/State/RestartFile.h"
+#include "Kernel/Step/StepPart.h"
 #include "Kernel/Step/SummaryRows.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
@@ -415,6 +418,43 @@ TEST(BeforeTheRun, fieldsOfGrainsArePeriodic) {
     const auto scene = touching(glass());
     scene->setPeriodic(0, -0.02, 0.02);
     EXPECT_EQ(stateOf(*scene, FieldContent::WithoutContacts).periodic.length.x, 0.04);
+}
+
+/// A part of the step that calls something when it begins.
+class Caller final : public StepPart {
+public:
+    explicit Caller(std::function<void()> toCall) : call(std::move(toCall)) {}
+    [[nodiscard]] std::string_view name() const override { return "caller"; }
+    void begin(StepContext& /*scene*/, bool /*isRestarted*/) override { call(); }
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}
+
+private:
+    std::function<void()> call;
+};
+
+// The scene counts as begun then, but its contacts have no laws yet.
+TEST(BeforeTheRun, partsOfTheStepBeginBeforeContactsAreListed) {
+    const std::vector<std::pair<std::string, Call>> early{
+        {"stateOf", [](Scene& scene) { static_cast<void>(stateOf(scene)); }},
+        {"stableStepOfContacts", [](Scene& scene) { static_cast<void>(scene.stableStepOfContacts()); }},
+        {"stabilityAdvice", [](Scene& scene) { static_cast<void>(scene.stabilityAdvice()); }},
+        {"writeRestart", [](Scene& scene) { scene.writeRestart(scene.restartFile()); }}};
+    for (const auto& [name, call] : early) {
+        const TestFolder folder = TestFolder::inMemory();
+        const std::string fault = faultOf([&, &call = call] {
+            const auto scene = touching(glass());
+            scene->setName(folder.name());
+            scene->addPart<Caller>([&] { call(*scene); });
+            const std::string said = refusal([&] { scene->initialise(); });
+            if (!contains(said, "needs a scene that has begun")) throw std::runtime_error("it says: " + said);
+        });
+        EXPECT_EQ(fault, "") << name;
+    }
+}
+
+TEST(BeforeTheRun, filmsHaveNoReach) {
+    EXPECT_EQ(touching(glass())->contacts().filmReach(), 0);
+    EXPECT_EQ(touching(bridged())->contacts().filmReach(), 0);
 }
 
 /// A wall whose motion looks at the fields of its scene.
