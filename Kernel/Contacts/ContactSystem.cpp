@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/ContactList.h"
 #include "Kernel/Contacts/ContactMigration.h"
@@ -16,6 +17,12 @@
 #include "Kernel/Math/ExactSum.h"
 
 namespace pendular {
+
+void ContactSystem::throwWithoutLaws() {
+    throw InputError(
+        "ContactSystem: laws() needs contacts that are prepared, as initialise() of a scene does; before it, "
+        "call laws() of the scene.");
+}
 
 void ContactSystem::prepare(ContactLaws& contactLaws, const WallHandler& wallHandler, const PeriodicBox& box,
                             const SkinChoice& skinChoice, bool withLedger, GrainFilms* films) {

@@ -3,6 +3,7 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -100,9 +101,16 @@ void closeFilesOfParent(int own) {
     for (const int descriptor : found) close(descriptor);
 }
 
+/// A child ends with its parent, however that ends: it has the parent's locks until it has closed its files.
+void endWith(pid_t parent) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(failed);  // it has just ended
+}
+
 /// All that the child does.
-[[noreturn]] void run(const ReadingProcess::Limits& limits, int socket,
+[[noreturn]] void run(const ReadingProcess::Limits& limits, pid_t parent, int socket,
                       const std::function<void(const ReadingProcess::Channel&)>& work) {
+    endWith(parent);
     takeDefaultSignals();
     silence();
     limit(RLIMIT_CORE, 0);
@@ -167,8 +175,9 @@ ReadingProcess::ReadingProcess(const Limits& most, const std::function<void(cons
     : limits(most) {
     std::array<int, 2> ends{};
     const bool isPair = socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) == 0;
+    const pid_t parent = getpid();
     child = isPair ? fork() : -1;
-    if (child == 0) run(limits, ends[1], work);
+    if (child == 0) run(limits, parent, ends[1], work);
     const int problem = errno;
     if (isPair) close(ends[1]);
     if (child < 0) {

@@ -34,6 +34,7 @@
 #include "Kernel/Particles/PeriodicBox.h"
 #include "Kernel/Simulation/BridgeAdvice.h"
 #include "Kernel/Simulation/ChosenTimeStep.h"
+#include "Kernel/Simulation/ListedContacts.h"
 #include "Kernel/Simulation/OverlapEstimate.h"
 #include "Kernel/Simulation/PendularState.h"
 #include "Kernel/Simulation/RunSummary.h"
@@ -273,6 +274,9 @@ std::vector<std::pair<std::string, std::vector<std::pair<std::string, Call>>>> c
            }}}},
         {"Mercury/MercuryInsertion.h",
          {{"hasRoomFor", [](Scene& scene) { static_cast<void>(hasRoomFor(scene, SphericalParticle())); }}}},
+        {"Simulation/ListedContacts.h",
+         {{"requireListedContacts", [](Scene& scene) { requireListedContacts(scene, "a call"); }},
+          {"boxOfContacts", [](Scene& scene) { static_cast<void>(boxOfContacts(scene)); }}}},
         {"Simulation/Scene.h",
          {{"interactions", [](Scene& scene) { static_cast<void>(scene.interactions()); }},
           {"ownInteractions", [](Scene& scene) { static_cast<void>(scene.ownInteractions()); }},
@@ -320,6 +324,7 @@ std::vector<std::pair<std::string, std::vector<std::pair<std::string, Call>>>> c
                static_cast<void>(contacts.overlaps().largestOverlap());
                static_cast<void>(contacts.capillaryNumbers().largestNumber());
                static_cast<void>(contacts.liquidLedger(grains));
+               static_cast<void>(contacts.filmReach() + contacts.laws().overlapLimit.largest);
                contacts.forEachListed([](const Bucket&, std::uint32_t) {});
                contacts.forEachActing(grains, [](const Bucket&, std::uint32_t) {});
            }}}},
@@ -450,6 +455,14 @@ TEST(BeforeTheRun, partsOfTheStepBeginBeforeContactsAreListed) {
         });
         EXPECT_EQ(fault, "") << name;
     }
+}
+
+TEST(BeforeTheRun, contactsHaveNoLaws) {
+    const auto scene = touching(glass());
+    EXPECT_TRUE(isOneSentence(refusal([&] { static_cast<void>(scene->contacts().laws()); })));
+    EXPECT_FALSE(scene->laws().shapes());
+    scene->initialise();
+    EXPECT_EQ(&scene->contacts().laws(), &scene->laws());
 }
 
 TEST(BeforeTheRun, filmsHaveNoReach) {
