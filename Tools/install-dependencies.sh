@@ -8,10 +8,11 @@
 #   --browser a browser without a screen for its tests.
 #   With --hosts also other programs that examples and studies take: finite elements, energies of surfaces.
 #   With --mpi also those for runs on several processes (PENDULAR_MPI), and their tests.
+#   With --reference also Doxygen, for the target `reference`.
 #   With --clang also clang, with libFuzzer (presets asan-ubsan, tsan and fuzz), clang-format and clang-tidy.
 set -euo pipefail
 
-check=no hosts=no readers=no python=no mpi=no clang=no view=no page=no browser=no
+check=no hosts=no readers=no python=no mpi=no clang=no view=no page=no browser=no reference=no
 for option in "$@"; do
     case $option in
         --check) check=yes ;;
@@ -23,8 +24,9 @@ for option in "$@"; do
         --view) view=yes ;;
         --page) page=yes ;;
         --browser) browser=yes ;;
+        --reference) reference=yes ;;
         *)
-            echo "usage: Tools/install-dependencies.sh [--check] [--readers] [--python] [--hosts] [--mpi] [--clang] [--view] [--page] [--browser]" >&2
+            echo "usage: Tools/install-dependencies.sh [--check] [--readers] [--python] [--hosts] [--mpi] [--clang] [--view] [--page] [--browser] [--reference]" >&2
             exit 2
             ;;
     esac
@@ -95,6 +97,10 @@ if [[ $mpi == yes ]]; then
     packages+='
 libopenmpi-dev||MPI, for several processes
 openmpi-bin|mpirun|starts them'
+fi
+if [[ $reference == yes ]]; then
+    packages+='
+doxygen|doxygen|reference of all classes and functions'
 fi
 if [[ $clang == yes ]]; then
     packages+='

@@ -3,7 +3,8 @@
 # --preset long) and those of the studies (preset studies). With CI=true, format and faults that clang-tidy finds are
 # checked first, warnings are errors, random scenes and the tests of folders that these do not cover run a second time
 # under the address and undefined-behaviour sanitizers (all tests: preset asan-ubsan), the readers of files read random
-# files, 8 s each (libFuzzer), and the tests of threads run under the thread sanitizer.
+# files, 8 s each (libFuzzer), and the tests of threads run under the thread sanitizer. With Doxygen, which CI installs,
+# the reference of classes and functions is written.
 # At the end it says what each stage took.
 #   Tools/run-tests.sh
 set -euo pipefail
@@ -19,13 +20,16 @@ build_and_test() {  # preset
     stage "Building (preset $1)" cmake --build --preset "$1" --parallel "$jobs"
     stage "Testing (preset $1)" ctest --preset "$1" --parallel "$jobs"
 }
+write_reference() {  # preset
+    stage "Reference (preset $1)" cmake --build --preset "$1" --target reference
+}
 
 if [[ ${CI:-} == true ]]; then
     if command -v ccache >/dev/null; then  # what another clone has compiled is found again, whatever its folder
         export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
         export CCACHE_SLOPPINESS=pch_defines,time_macros
     fi
-    stage "Installing" Tools/install-dependencies.sh --clang --readers --python --mpi --view
+    stage "Installing" Tools/install-dependencies.sh --clang --readers --python --mpi --view --reference
     export PENDULAR_REQUIRE_DEPENDENCIES=1  # no test may leave out what needs them
     stage "Format" Tools/check-format.sh
     # All files of the kernel take ten minutes: of a change that is so large it is left to Tools/check-tidy.sh by hand.
@@ -37,9 +41,11 @@ if [[ ${CI:-} == true ]]; then
         stage "clang-tidy" Tools/check-tidy.sh --since HEAD~1
     fi
     build_and_test ci
+    write_reference ci
     build_and_test ci-asan-ubsan
     build_and_test ci-tsan
 else
     Tools/install-dependencies.sh
     build_and_test release
+    if cmake --build --preset release --target help | grep '^reference:' >/dev/null; then write_reference release; fi
 fi

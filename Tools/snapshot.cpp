@@ -91,11 +91,19 @@ int run(const Options& o) {
     const std::vector<std::filesystem::path> files = chosenFrames(o);
     Span span;
     std::vector<Vector<double>> points;
+    const double aspect = static_cast<double>(o.view.width) / o.view.height;
+    double share = 0;  // of the picture's width, of the widest legend
+    const auto makeRoom = [&](const Picture& picture) {
+        if (picture.legend) share = std::max(share, placeOf(*picture.legend, aspect).strip / (2 * aspect));
+    };
     // Once through all frames for what they share, and once more to draw them.
     for (const std::filesystem::path& file : files) {
         const Frame frame = readAny(file);
         for (const double value : shownScalar(frame, o.view).values) span.take(value);
-        const std::vector<Vector<double>> seen = outline(compose(frame, o.view, span));
+        const Picture picture = compose(frame, o.view, span);
+        if (picture.legend && !picture.legend->map)
+            makeRoom(picture);  // all frames have one bar, but other names
+        const std::vector<Vector<double>> seen = outline(picture);
         points.insert(points.end(), seen.begin(), seen.end());
     }
     if (points.empty()) throw InputError(fmt::format("snapshot: nothing of {} is to be seen.", o.input));
@@ -105,7 +113,8 @@ int run(const Options& o) {
     const Vector<double> from{o.view.from[0], o.view.from[1], o.view.from[2]};
     for (std::size_t k = 0; k < files.size(); ++k) {
         Picture picture = compose(readAny(files[k]), o.view, span);
-        const Camera camera = cameraOn(points, from, o.view.width, o.view.height, picture.legend.has_value());
+        makeRoom(picture);
+        const Camera camera = cameraOn(points, from, o.view.width, o.view.height, share);
         picture.size = size;
         picture.wallEdges = sharpEdges(picture.walls, size);
         std::filesystem::path target = o.output;

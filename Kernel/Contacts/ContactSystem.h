@@ -309,9 +309,9 @@ public:
     void sampleWallsAlone() { samplesPairs = false; }
     /// The listed contacts with walls, in the order of identities: of the grain, the wall and its part.
     [[nodiscard]] std::vector<std::uint32_t> contactsAtWalls(const Grains& grains) const;
-    /// Calls function(k, bucket, block, lane, record) for those of the contacts [begin, end) that have a
-    /// force, or had one at the end of the last step.
-    /// @param contacts those of contactsAtWalls(), as of the same list
+    /// Calls function(k, bucket, block, lane, record) for those of the contacts [begin, end) at walls that
+    /// have a force, or had one at the end of the last step.
+    /// @param atWalls those of contactsAtWalls(), as of the same list
     template <class Function>
     void forEachRecordAtWalls(const Grains& grains, std::span<const std::uint32_t> atWalls, std::size_t begin,
                               std::size_t end, Function&& function) {

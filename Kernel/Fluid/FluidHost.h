@@ -21,7 +21,7 @@ public:
     virtual void findVelocity(const FluidGrid& grid, FluidFields& fields, double time) = 0;
     /// Sets `pressureGradient`, of `drag`. @param gravity m/s^2
     virtual void findPressure(const FluidGrid& grid, FluidFields& fields, const Vector<double>& gravity) = 0;
-    /// The step's `source` is known. @param length s, of the step
+    /// The step's `source` is known; the number is the length of the step (s).
     virtual void take(const FluidGrid&, const FluidFields&, double /*length*/) {}
     /// Lists all that is set of it, each by archive.same(name, value, unit), so that no run goes on with
     /// another fluid; empty where nothing is. @param now s

@@ -113,6 +113,8 @@ public:
     [[nodiscard]] bool isEmpty() const { return inlets.empty(); }
     /// Throws InputError if there is no such inlet.
     [[nodiscard]] const InletCount& countOf(std::size_t inlet) const;
+    /// As it was given: not moved with a wall or the fill.
+    [[nodiscard]] const Region& regionOf(std::size_t inlet) const { return *inlets[inlet].inlet.region; }
 
     // Called by the scene, not by drivers.
 

@@ -18,8 +18,8 @@ namespace pendular {
 class MayOverlap {
 public:
     /// Lists them in an order that depends on the spheres only.
-    /// @param skin m; @param worthAThread spheres; @param counts(a, b) whether two spheres push each other;
-    /// @param visit(k) called once for each sphere
+    /// @param skin m; @param worthAThread spheres; @param counts function of two spheres: whether they push
+    /// each other; @param visit function of a sphere, called once for each
     template <class Counts, class Visit>
     void list(std::span<const TranslationRecord> spheres, double skin, const PeriodicBox& periodic,
               int threads, std::size_t worthAThread, Counts&& counts, Visit&& visit) {

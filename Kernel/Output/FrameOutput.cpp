@@ -36,7 +36,7 @@ template <class Series>
 void FrameOutput<Series>::write(const Scene& scene) {
     if (scene.getTime() <= last) return;  // it has this state
     if (!series) series.emplace(nameIn(scene), keptUntil(scene));
-    add(content.of(scene), scene);
+    add(content.of(scene, box), scene);
     last = scene.getTime();
 }
 
@@ -59,9 +59,13 @@ void FrameOutput<Series>::complete(const Scene& scene) {
 
 template <class Series>
 void FrameOutput<Series>::visitState(StateArchive& archive, const Scene& scene) {
-    const std::string entry = Series::indexOf(nameIn(scene)).filename().string() + "-last-time";
+    const std::string index = Series::indexOf(nameIn(scene)).filename().string();
+    const std::string entry = index + "-last-time";
     if (archive.isReading()) isKnown = archive.holds(entry);
-    if (isKnown || series) archive.value(entry, last);
+    if (isKnown || series) {
+        archive.value(entry, last);
+        box.visitState(archive, index + "-box");
+    }
     if (archive.isReading()) Series::check(nameIn(scene));
 }
 

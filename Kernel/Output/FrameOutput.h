@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "Kernel/Output/SceneBox.h"
 #include "Kernel/Output/SceneFields.h"
 #include "Kernel/Simulation/OutputInterval.h"
 
@@ -43,7 +44,7 @@ public:
 
     /// On several ranks, each writes a file with its own grains and contacts, and the first one what names
     /// them (see ParaViewFrames). Where one process has all grains, there is one file.
-    FrameOutput& withParts(bool yes = true) requires Series::hasParts { return parts = yes, *this; }
+    FrameOutput& withParts(bool yes = true) requires(Series::hasParts) { return parts = yes, *this; }
     [[nodiscard]] bool writesParts() const { return parts; }
 
     void prepare(const Scene& scene) const;
@@ -51,7 +52,8 @@ public:
     /// Writes the end of a run that goes on from a file that knows no frames, and that has had no output
     /// since.
     void complete(const Scene& scene);
-    /// The time of the last frame, so that a run that goes on repeats none and leaves none out.
+    /// The time of the last frame, so that a run that is resumed repeats none and leaves none out, and the
+    /// box in which walls are drawn.
     void visitState(StateArchive& archive, const Scene& scene);
 
 private:
@@ -61,6 +63,7 @@ private:
     [[nodiscard]] double keptUntil(const Scene& scene) const;
 
     FrameContent content;
+    SceneBox box;
     std::optional<Series> series;
     std::string name;
     OutputInterval times;

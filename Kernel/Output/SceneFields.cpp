@@ -11,8 +11,8 @@
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Files/FileName.h"
-#include "Kernel/Math/Scalar.h"
 #include "Kernel/Output/BoxFields.h"
+#include "Kernel/Output/SceneBox.h"
 #include "Kernel/Output/ShapeFields.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Particles/ParticleStore.h"
@@ -67,28 +67,6 @@ void requireDistinctNames(const std::vector<PolyDataField>& fields, std::string_
 
 constexpr std::array axes{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
 
-/// Around all grains, also those of other ranks, and the periods of the scene.
-std::pair<Vector<double>, Vector<double>> boxAround(const ParticleStore& grains, const PeriodicBox& periodic,
-                                                    const AllRanks& ranks) {
-    Vector<double> lowest{infinity, infinity, infinity}, highest = -lowest;
-    for (const TranslationRecord& grain : grains.translation) {
-        if (grain.radius == 0) continue;  // a gap
-        for (const auto axis : axes) {
-            // A gap to a plane of a few radii belongs to the scene.
-            lowest.*axis = std::min(lowest.*axis, grain.position.*axis - 2 * grain.radius);
-            highest.*axis = std::max(highest.*axis, grain.position.*axis + 2 * grain.radius);
-        }
-    }
-    for (const auto axis : axes) {
-        lowest.*axis = ranks.smallest(lowest.*axis), highest.*axis = ranks.largest(highest.*axis);
-        if (!(lowest.*axis <= highest.*axis)) lowest.*axis = highest.*axis = 0;  // no grains
-        if (!(periodic.length.*axis > 0)) continue;
-        lowest.*axis = periodic.lowest.*axis;
-        highest.*axis = periodic.lowest.*axis + periodic.length.*axis;
-    }
-    return {lowest, highest};
-}
-
 template <class Real>
 PolyDataField fieldOf(const std::string& name, const FrameContent::GrainValue& valueOf,
                       const ParticleStore& grains) {
@@ -131,10 +109,9 @@ PolyData dropletPoints(const SprayHandler& sprays) {
 using AddedFields = std::vector<std::pair<std::string, FrameContent::GrainValue>>;
 
 template <class Real>
-SceneFrame frameOf(const FrameContent& content, const AddedFields& added, const Scene& scene) {
+SceneFrame frameOf(const FrameContent& content, const AddedFields& added, const Scene& scene, SceneBox& box) {
     const auto& store = scene.particleHandler.store();
-    const AllRanks& ranks = scene.contacts().ranks();
-    const bool withBodies = ranks.any(!store.bodies.empty());
+    const bool withBodies = scene.contacts().ranks().any(!store.bodies.empty());
     SceneFrame frame{.step = scene.getNumberOfTimeSteps(),
                      .time = scene.getTime(),
                      .grains = grainPoints<Real>(store, scene.laws(), withBodies),
@@ -158,8 +135,10 @@ SceneFrame frameOf(const FrameContent& content, const AddedFields& added, const 
     requireDistinctNames(frame.grains.pointFields, "grains");
     if (frame.contacts) requireDistinctNames(frame.contacts->cellFields, "contacts");
     if (scene.wallHandler.getSize() > 0) {  // also where all were removed: each frame has the same files
-        const auto [lowest, highest] = boxAround(store, boxOfContacts(scene), ranks);
-        frame.walls = wallPolygons(scene.wallHandler, lowest, highest);
+        box.take(scene);
+        const Vector<double>& period = boxOfContacts(scene).length;
+        frame.walls = wallPolygons(scene.wallHandler, box.box().lowest, box.box().highest,
+                                   {period.x > 0, period.y > 0, period.z > 0});
     }
     if (!scene.sprayHandler.isEmpty()) frame.droplets = dropletPoints<Real>(scene.sprayHandler);
     return frame;
@@ -167,11 +146,12 @@ SceneFrame frameOf(const FrameContent& content, const AddedFields& added, const 
 
 }  // namespace
 
-PolyData wallPolygons(const WallHandler& walls, const Vector<double>& lowest, const Vector<double>& highest) {
+PolyData wallPolygons(const WallHandler& walls, const Vector<double>& lowest, const Vector<double>& highest,
+                      std::array<bool, 3> isPeriod) {
     PolyData data;
     data.kind = PolyData::Cells::Polygons;
     std::vector<std::int32_t> numbers, species;
-    const std::vector<WallSurface> surfaces = surfacesOf(walls, lowest, highest);
+    const std::vector<WallSurface> surfaces = surfacesOf(walls, lowest, highest, isPeriod);
     for (std::size_t w = 0; w < surfaces.size(); ++w)
         for (const Polygon& polygon : surfaces[w].polygons) {
             for (const Vector<double>& corner : polygon) {
@@ -192,8 +172,13 @@ void FrameContent::addField(std::string name, GrainValue valueOf) {
     added.emplace_back(std::move(name), std::move(valueOf));
 }
 
+SceneFrame FrameContent::of(const Scene& scene, SceneBox& box) const {
+    return doubles ? frameOf<double>(*this, added, scene, box) : frameOf<float>(*this, added, scene, box);
+}
+
 SceneFrame FrameContent::of(const Scene& scene) const {
-    return doubles ? frameOf<double>(*this, added, scene) : frameOf<float>(*this, added, scene);
+    SceneBox box;
+    return of(scene, box);
 }
 
 }  // namespace pendular

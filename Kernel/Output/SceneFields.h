@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <functional>
@@ -18,6 +19,7 @@ class ContactLaws;
 class ContactSystem;
 class ParticleStore;
 class Scene;
+class SceneBox;
 class WallHandler;
 
 /// The grains as points: radius, mass, velocity, spin, force (of contacts and weight), species, whether they
@@ -52,7 +54,8 @@ PolyData contactLines(const ContactSystem& contacts, const ParticleStore& grains
                       bool withPoints = false, int threads = 1);
 
 /// The walls as polygons, with their numbers and species; see surfacesOf().
-PolyData wallPolygons(const WallHandler& walls, const Vector<double>& lowest, const Vector<double>& highest);
+PolyData wallPolygons(const WallHandler& walls, const Vector<double>& lowest, const Vector<double>& highest,
+                      std::array<bool, 3> isPeriod = {});
 
 /// What a frame shows of a scene.
 struct SceneFrame {
@@ -78,6 +81,9 @@ public:
     void addField(std::string name, GrainValue valueOf);
 
     /// Of a scene whose ranks have their own grains only, what this rank has; all call it.
+    /// @param box of the earlier frames, in which endless walls are drawn; it is widened to this one
+    [[nodiscard]] SceneFrame of(const Scene& scene, SceneBox& box) const;
+    /// A single frame.
     [[nodiscard]] SceneFrame of(const Scene& scene) const;
 
 private:

@@ -5,7 +5,7 @@
 
 namespace pendular {
 
-/// The class that a driver of superquadrics derives from: Simulation<S>, whose grains are all added by
+/// The class that a driver of superquadrics derives from: a `Simulation<S>` whose particles are all added by
 /// superquadricHandler.
 template <class S>
 class SuperquadricSimulation : public Simulation<S> {

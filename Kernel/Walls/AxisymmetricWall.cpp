@@ -194,7 +194,7 @@ WallSurface AxisymmetricWall::surfaceInBody(const SceneSphere&) const {
     WallSurface surface;
     for (std::size_t k = 1; k < profile.size(); ++k) {
         const Point &begin = profile[k - 1], &end = profile[k];
-        const auto facets = turnedAround(axis, origin + begin.height * axis, begin.radius,
+        const auto facets = turnedAround(axis, anyAcross(axis), origin + begin.height * axis, begin.radius,
                                          origin + end.height * axis, end.radius);
         surface.polygons.insert(surface.polygons.end(), facets.begin(), facets.end());
     }

@@ -20,7 +20,11 @@ struct Box {
         lowest = {std::min(lowest.x, p.x), std::min(lowest.y, p.y), std::min(lowest.z, p.z)};
         highest = {std::max(highest.x, p.x), std::max(highest.y, p.y), std::max(highest.z, p.z)};
     }
-    void include(const Box& box) { include(box.lowest), include(box.highest); }
+    void include(const Box& box) {  // by its lowest and highest numbers, so that an empty one changes nothing
+        const Vector<double>&low = box.lowest, &high = box.highest;
+        lowest = {std::min(lowest.x, low.x), std::min(lowest.y, low.y), std::min(lowest.z, low.z)};
+        highest = {std::max(highest.x, high.x), std::max(highest.y, high.y), std::max(highest.z, high.z)};
+    }
     [[nodiscard]] Vector<double> middle() const { return 0.5 * (lowest + highest); }
     /// The square (m^2) of the distance of a point outside; 0 inside.
     [[nodiscard]] double squaredDistance(const Vector<double>& p) const {

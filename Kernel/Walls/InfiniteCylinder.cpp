@@ -47,9 +47,11 @@ WallSurface InfiniteCylinder::surfaceInBody(const SceneSphere& around) const {
     const Vector<double> half = around.radius * axis;
     WallSurface surface;
     surface.endless = true;
-    surface.polygons = turnedAround(axis, middle - half, cylinderRadius, middle + half, cylinderRadius);
+    surface.axis = axis;
+    // The facets stay where they are while the cylinder turns about its axis.
+    const Vector<double> a = getPose().turnBack(anyAcross(getPose().turn(axis))), b = cross(axis, a);
+    surface.polygons = turnedAround(axis, a, middle - half, cylinderRadius, middle + half, cylinderRadius);
     if (!inside) return surface;
-    const Vector<double> a = anyAcross(axis), b = cross(axis, a);
     for (int k = 0; k < facetsAround; ++k) {
         const double angle = 2 * std::numbers::pi * (k + 0.5) / facetsAround;
         const Vector<double> outward = std::cos(angle) * a + std::sin(angle) * b;

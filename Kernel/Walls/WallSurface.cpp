@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include "Kernel/Walls/WallHandler.h"
 
@@ -21,15 +23,167 @@ Polygon clipped(const Polygon& polygon, const HalfSpace& half) {
     return kept;
 }
 
-void widen(Vector<double>& lowest, Vector<double>& highest, const Vector<double>& point) {
-    lowest = {std::min(lowest.x, point.x), std::min(lowest.y, point.y), std::min(lowest.z, point.z)};
-    highest = {std::max(highest.x, point.x), std::max(highest.y, point.y), std::max(highest.z, point.z)};
+constexpr std::array axes{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
+
+/// Walls farther away than so many of the longest sides of the box do not widen it: a lid that was moved out
+/// of the way would make the scene small in its picture. A particle that falls from 30 times its diameter is
+/// still shown with the floor.
+constexpr double farthest = 20;
+
+[[nodiscard]] bool isEmpty(const Box& box) { return !(box.lowest.x <= box.highest.x); }
+
+[[nodiscard]] double longestSide(const Box& box) {
+    const Vector<double> sides = box.highest - box.lowest;
+    return std::max({sides.x, sides.y, sides.z});
 }
 
-std::vector<HalfSpace> sidesOf(const Vector<double>& lowest, const Vector<double>& highest) {
-    return {{{1, 0, 0}, highest.x},  {{-1, 0, 0}, -lowest.x}, {{0, 1, 0}, highest.y},
-            {{0, -1, 0}, -lowest.y}, {{0, 0, 1}, highest.z},  {{0, 0, -1}, -lowest.z}};
+[[nodiscard]] bool isWithin(const Vector<double>& point, const Box& box) {
+    return std::ranges::all_of(
+        axes, [&](auto axis) { return point.*axis > box.lowest.*axis && point.*axis < box.highest.*axis; });
 }
+
+/// Sides of half-spaces that are the same but for round-off leave two corners in place of one.
+Polygon withoutDoubleCorners(const Polygon& polygon, double nearest) {
+    Polygon kept;
+    for (const Vector<double>& corner : polygon)
+        if (kept.empty() || norm(corner - kept.back()) > nearest) kept.push_back(corner);
+    while (kept.size() > 1 && norm(kept.back() - kept.front()) <= nearest) kept.pop_back();
+    return kept;
+}
+
+/// The half-spaces that cut off a surface at a box.
+std::vector<HalfSpace> sidesOf(const Box& box, const WallSurface& surface) {
+    if (surface.axis) {
+        const Vector<double> half = 0.5 * (box.highest - box.lowest), &along = *surface.axis;
+        const double middle = dot(along, box.middle());
+        const double reach =
+            std::abs(along.x) * half.x + std::abs(along.y) * half.y + std::abs(along.z) * half.z;
+        return {{along, middle + reach}, {-along, reach - middle}};
+    }
+    const Vector<double>&low = box.lowest, &high = box.highest;
+    return {{{1, 0, 0}, high.x},  {{-1, 0, 0}, -low.x}, {{0, 1, 0}, high.y},
+            {{0, -1, 0}, -low.y}, {{0, 0, 1}, high.z},  {{0, 0, -1}, -low.z}};
+}
+
+/// The surfaces of all walls while the box in which they are drawn is found.
+class Drawing {
+public:
+    Drawing(const WallHandler& handler, const Box& around, std::array<bool, 3> isPeriod)
+        : walls(handler.present()), given(around), held(isPeriod) {
+        for (const PresentWall& wall : walls) surfaces.push_back(wall.object->surface({{0, 0, 0}, 0}));
+    }
+
+    /// The box in which endless walls are drawn; without an extent where nothing tells how large they are to
+    /// be.
+    [[nodiscard]] Box box() {
+        const Box known = withEnds();
+        return isKnown(known) ? withCorners(withNearest(known)) : known;
+    }
+    [[nodiscard]] std::vector<WallSurface> drawn() && {
+        if (const Box wide = box(); isKnown(wide)) {
+            cut(wide);
+        } else {
+            for (WallSurface& surface : surfaces)
+                if (surface.endless) surface.polygons.clear();
+        }
+        return std::move(surfaces);
+    }
+
+private:
+    [[nodiscard]] static bool isKnown(const Box& box) { return !isEmpty(box) && longestSide(box) > 0; }
+    void include(Box& box, const WallSurface& surface) const {
+        for (const Polygon& polygon : surface.polygons)
+            for (const Vector<double>& corner : polygon) box.include(corner);
+        hold(box);
+    }
+    void hold(Box& box) const {
+        if (isEmpty(given)) return;
+        for (std::size_t k = 0; k < 3; ++k)
+            if (held[k])
+                box.lowest.*axes[k] = given.lowest.*axes[k], box.highest.*axes[k] = given.highest.*axes[k];
+    }
+    /// The given box and the walls that have ends; where there are neither, what is nearest to the origin.
+    [[nodiscard]] Box withEnds() const {
+        Box box = given;
+        for (const WallSurface& surface : surfaces)
+            if (!surface.endless) include(box, surface);
+        if (isEmpty(box))
+            for (const WallSurface& surface : surfaces) include(box, surface);
+        return box;
+    }
+    [[nodiscard]] static Box limitsOf(const Box& box) {
+        const double reach = farthest * longestSide(box);
+        const Vector<double> by{reach, reach, reach};
+        return {box.lowest - by, box.highest + by};
+    }
+    /// In a sphere without a radius, a plane shrinks to its point that is nearest to the centre, and a
+    /// cylinder to its circle there, whose box does not change where the facets turn.
+    [[nodiscard]] Box withNearest(const Box& box) {
+        place({box.middle(), 0});
+        const Box limits = limitsOf(box);
+        Box wide = box;
+        for (const WallSurface& surface : surfaces) {
+            const bool isNear = std::ranges::all_of(surface.polygons, [&](const Polygon& polygon) {
+                return std::ranges::all_of(
+                    polygon, [&](const Vector<double>& corner) { return isWithin(corner, limits); });
+            });
+            if (surface.endless && isNear)
+                wide.include(boxAround(surface, surface.axis.value_or(Vector<double>{})));
+        }
+        hold(wide);
+        return wide;
+    }
+    /// With the corners in which endless walls meet: those that are not on the sides of a far wider box.
+    [[nodiscard]] Box withCorners(const Box& box) {
+        const Box limits = limitsOf(box);
+        Box cutAt = limits;
+        hold(cutAt);
+        cut(cutAt);
+        const double slack = 1e-9 * longestSide(limits);
+        const Vector<double> by{slack, slack, slack};
+        const Box inner{limits.lowest + by, limits.highest - by};
+        Box wide = box;
+        for (const WallSurface& surface : surfaces) {
+            if (!surface.endless) continue;
+            for (const Polygon& polygon : surface.polygons)
+                for (const Vector<double>& corner : polygon)
+                    if (isWithin(corner, inner)) wide.include(corner);
+        }
+        hold(wide);
+        return wide;
+    }
+    void place(const SceneSphere& around) {
+        for (std::size_t w = 0; w < walls.size(); ++w)
+            if (surfaces[w].endless) surfaces[w] = walls[w].object->surface(around);
+    }
+    /// Cuts off endless walls at a box, which is widened by the slanted ends of cylinders before it cuts off
+    /// planes.
+    void cut(Box box) {
+        const Vector<double> middle = box.middle();
+        place({middle, norm(box.highest - middle)});
+        for (const bool isCylinder : {true, false})
+            for (std::size_t w = 0; w < surfaces.size(); ++w) {
+                if (!surfaces[w].endless || surfaces[w].axis.has_value() != isCylinder) continue;
+                cutOne(w, box);
+                if (isCylinder) include(box, surfaces[w]);
+            }
+    }
+    void cutOne(std::size_t w, const Box& box) {
+        std::vector<HalfSpace> sides = sidesOf(box, surfaces[w]);
+        for (std::size_t other = 0; other < surfaces.size(); ++other)
+            if (other != w)
+                sides.insert(sides.end(), surfaces[other].inside.begin(), surfaces[other].inside.end());
+        const double size = longestSide(box);
+        for (Polygon& polygon : surfaces[w].polygons)
+            polygon = withoutDoubleCorners(clipped(std::move(polygon), sides), 1e-9 * size);
+        std::erase_if(surfaces[w].polygons, [](const Polygon& polygon) { return polygon.size() < 3; });
+    }
+
+    std::span<const PresentWall> walls;
+    Box given;
+    std::array<bool, 3> held;
+    std::vector<WallSurface> surfaces;
+};
 
 }  // namespace
 
@@ -41,15 +195,17 @@ WallSurface WallSurface::placed(const Pose& pose) const {
         half.normal = pose.turn(half.normal);
         half.offset += dot(half.normal, pose.shift);
     }
+    if (result.axis) result.axis = pose.turn(*result.axis);
     return result;
 }
 
-std::vector<Polygon> turnedAround(const Vector<double>& axis, const Vector<double>& begin, double beginRadius,
-                                  const Vector<double>& end, double endRadius) {
-    const Vector<double> a = anyAcross(axis), b = cross(axis, a);
+std::vector<Polygon> turnedAround(const Vector<double>& axis, const Vector<double>& across,
+                                  const Vector<double>& begin, double beginRadius, const Vector<double>& end,
+                                  double endRadius) {
+    const Vector<double> other = cross(axis, across);
     const auto outward = [&](int k) {
         const double angle = 2 * std::numbers::pi * (k % facetsAround) / facetsAround;
-        return std::cos(angle) * a + std::sin(angle) * b;
+        return std::cos(angle) * across + std::sin(angle) * other;
     };
     std::vector<Polygon> facets;
     for (int k = 0; k < facetsAround; ++k) {
@@ -66,28 +222,34 @@ Polygon clipped(Polygon polygon, const std::vector<HalfSpace>& halfSpaces) {
     return polygon;
 }
 
-std::vector<WallSurface> surfacesOf(const WallHandler& walls, Vector<double> lowest, Vector<double> highest) {
-    // The surface of a wall with ends does not depend on the sphere.
-    const auto surfaceOf = [&](const PresentWall& wall) {
-        const Vector<double> middle = 0.5 * (lowest + highest);
-        return wall.object->surface({middle, norm(highest - middle)});
-    };
-    for (const PresentWall& wall : walls.present())
-        if (const WallSurface surface = surfaceOf(wall); !surface.endless)
-            for (const Polygon& polygon : surface.polygons)
-                for (const Vector<double>& corner : polygon) widen(lowest, highest, corner);
-    std::vector<WallSurface> surfaces;
-    for (const PresentWall& wall : walls.present()) surfaces.push_back(surfaceOf(wall));
-    for (std::size_t w = 0; w < surfaces.size(); ++w) {
-        if (!surfaces[w].endless) continue;
-        std::vector<HalfSpace> sides = sidesOf(lowest, highest);
-        for (std::size_t other = 0; other < surfaces.size(); ++other)
-            if (other != w)
-                sides.insert(sides.end(), surfaces[other].inside.begin(), surfaces[other].inside.end());
-        for (Polygon& polygon : surfaces[w].polygons) polygon = clipped(std::move(polygon), sides);
-        std::erase_if(surfaces[w].polygons, [](const Polygon& polygon) { return polygon.size() < 3; });
-    }
-    return surfaces;
+Box boxAround(const WallSurface& surface, const Vector<double>& spin) {
+    Box box;
+    for (const Polygon& polygon : surface.polygons)
+        for (const Vector<double>& corner : polygon) box.include(corner);
+    const double speed = norm(spin);
+    if (isEmpty(box) || !(speed > 0)) return box;
+    // A cylinder about the axis on which the surface turns, and the box around that.
+    const Vector<double> axis = (1 / speed) * spin, middle = box.middle();
+    double length = 0, radius = 0;
+    for (const Polygon& polygon : surface.polygons)
+        for (const Vector<double>& corner : polygon) {
+            const double along = dot(corner - middle, axis);
+            length = std::max(length, std::abs(along));
+            radius = std::max(radius, norm(corner - middle - along * axis));
+        }
+    Vector<double> half{0, 0, 0};
+    for (const auto k : axes)
+        half.*k = length * std::abs(axis.*k) + radius * std::sqrt(std::max(0.0, 1 - axis.*k * axis.*k));
+    return {middle - half, middle + half};
+}
+
+std::vector<WallSurface> surfacesOf(const WallHandler& walls, const Vector<double>& lowest,
+                                    const Vector<double>& highest, std::array<bool, 3> isPeriod) {
+    return Drawing(walls, {lowest, highest}, isPeriod).drawn();
+}
+
+Box boxOfDrawing(const WallHandler& walls, const Box& given, std::array<bool, 3> isPeriod) {
+    return Drawing(walls, given, isPeriod).box();
 }
 
 }  // namespace pendular

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <set>
 
 #include "BuildFolders.h"
 #include "Kernel/Output/ParaViewOutput.h"
@@ -29,13 +30,13 @@ const std::string tool = (folders::tools / "snapshot").string();
 TEST(Camera, showsAllPoints) {
     support::Random random(5);
     for (int k = 0; k < 200; ++k) {
-        const bool legend = k % 2 == 0;
+        const double share = k % 2 == 0 ? random.uniform(0.1, 0.45) : 0;  // of the legend
         const double size = std::exp(random.uniform(-20, 20));
         const Vector<double> shift = 10 * size * toVector(random.direction());
         std::vector<Vector<double>> points;
         for (int n = 0; n < 20; ++n)
             points.push_back(shift + size * random.uniform(0, 1) * toVector(random.direction()));
-        const Camera camera = cameraOn(points, toVector(random.direction()), 640, 480, legend);
+        const Camera camera = cameraOn(points, toVector(random.direction()), 640, 480, share);
         EXPECT_NEAR(dot(cross(camera.right, camera.up), camera.forward), -1, 1e-12);
         double left = 0, right = 0, top = 0, bottom = 0;
         for (const Vector<double>& p : points) {
@@ -43,8 +44,7 @@ TEST(Camera, showsAllPoints) {
             const double depth = dot(d, camera.forward) * Camera::slope();
             EXPECT_GT(depth, 0);
             const double x = dot(d, camera.right) / depth / camera.aspect(), y = dot(d, camera.up) / depth;
-            left = std::max(left, -x),
-            right = std::max(right, x / (legend ? 1 - 2 * Camera::legendShare : 1));
+            left = std::max(left, -x), right = std::max(right, x / (1 - 2 * share));
             bottom = std::max(bottom, -y), top = std::max(top, y);
         }
         for (const double side : {left, right, bottom, top}) EXPECT_LE(side, 0.95 + 1e-9);
@@ -78,6 +78,44 @@ TEST(Legend, hasRoundNumbersInItsRange) {
     EXPECT_EQ(label("velocity_m_per_s"), "velocity (m/s)");
     EXPECT_EQ(label("bridge_volume_m3"), "bridge volume (m^3)");
     EXPECT_EQ(label("species"), "species");
+}
+
+/// Each number of a legend has its own text, which is that number to a thousandth of the step between them.
+TEST(Legend, tellsItsNumbersApart) {
+    support::Random random(3);
+    for (int k = 0; k < 300; ++k) {
+        const double width = std::exp(random.uniform(-30, 30));
+        const double lowest = width * random.uniform(-1, 1) * std::exp(random.uniform(0, 12));
+        const Scalar scalar{"radius_m", {}, false};
+        const Legend legend = legendOf(scalar, {lowest, lowest + width}, View());
+        const std::vector<double> numbers = ticks(lowest, lowest + width);
+        ASSERT_EQ(legend.marks.size(), numbers.size());
+        const double step = numbers[1] - numbers[0];
+        std::set<std::string> texts;
+        for (std::size_t n = 0; n < numbers.size(); ++n) {
+            texts.insert(legend.marks[n].text);
+            EXPECT_NEAR(std::stod(legend.marks[n].text), numbers[n], 1e-3 * step);
+        }
+        EXPECT_EQ(texts.size(), numbers.size()) << lowest << ' ' << width;
+    }
+}
+
+/// What a legend shows lies in the picture, clear of what the camera shows, however narrow the picture is.
+TEST(Legend, isWholeInAnyPicture) {
+    Legend legend{"tangential velocity (m/s)", &colourMaps[0], {}};
+    for (const char* text : {"-1.25e-05", "0.0015", "0"}) legend.marks.push_back({0.5, text, {}});
+    for (const double aspect : {0.2, 0.5, 0.7, 1.0, 1.5, 3.0}) {
+        const LegendPlace place = placeOf(legend, aspect);
+        EXPECT_GE(place.left, aspect - place.strip);
+        EXPECT_GE(place.strip, place.letters * widthOf(legend.title));
+        for (const Legend::Mark& mark : legend.marks)
+            EXPECT_LT(place.textLeft() + place.letters * widthOf(mark.text), aspect) << aspect << mark.text;
+        EXPECT_LE(place.strip, aspect * (1 + 1e-12)) << "half of the picture is for the particles";
+        EXPECT_GT(place.letters, 0.02 * std::min(aspect, 1.0));
+    }
+    // In a wide picture nothing is smaller than it was made.
+    EXPECT_EQ(placeOf(legend, 3).letters, 0.07);
+    EXPECT_EQ(placeOf(legend, 3).strip, 0.4 * 3);
 }
 
 /// The cylinder between two spheres holds the bridge's volume: the gap S + 2 R - sqrt(..) of the true spheres

@@ -243,6 +243,11 @@ def test_walls_are_drawn():
         return [len(c.get_paths()) for c in axes.collections if isinstance(c, PolyCollection)]
 
     assert drawn(pendular.draw(tower())) == [1] and drawn(pendular.draw(tower(), walls=False)) == []
+    # The axes show all of the floor, which is wider than the tower.
+    scene = tower()
+    floor = scene.wall_polygons()["points_m"][:, 0]
+    assert floor.max() > scene.position[:, 0].max() + 1e-3
+    assert pendular.draw(scene).get_xlim() == pytest.approx((floor.min(), floor.max()), rel=1e-12)
     assert drawn(pendular.draw(pendular.Scene())) == [0] == drawn(pendular.draw(pendular.Scene(), color="velocity_m_per_s"))
     with pytest.raises(TypeError, match="must be a Scene"):
         pendular.draw("x")

@@ -36,7 +36,7 @@ def scene(serve, write_frames):
         page.open(server, "run=wet%2Frun")
         page.wait("pendular.viewer && pendular.viewer.loads")
         view = lambda text, *arguments: page.js(f"const v = pendular.viewer, s = v.scene; {text}", *arguments)
-        view("s.camera.from(0, 0); s.look.walls = false; s.render({finish: true})")
+        view("s.camera.from(0, 0); s.look.walls = false; s.lookAtAll(); s.camera.zoom(0.9); s.render({finish: true})")
         view.page, view.server = page, server
         yield view
         assert page.problems() == []

@@ -70,3 +70,33 @@ def test_which_tables_are_maps():
     """A path of a grain has columns as a profile has, but times x places would be the square of its rows."""
     done = subprocess.run(["node", "--input-type=module", "--eval", TABLES, (SOURCE / "table.js").as_uri()], capture_output=True, text=True, timeout=100)
     assert done.returncode == 0, done.stderr
+
+
+CAMERA = """
+import assert from "node:assert";
+const { boxOf, distanceToSee } = await import(process.argv[1]);
+const particles = { low: [-1, 0, -2], high: [1, 0, 0], grains: [-1, 0, -2, 0.1, 1, 0, 0, -0.3] };  // negative: a surface is drawn
+
+// The wall reaches above all particles: a drum that is a quarter full.
+const drum = { ...particles, walls: [-3, -1, -3, 3, 1, -3, 0, 0, 3] };
+assert.deepEqual(boxOf(drum, true), [[-3, -1, -3], [3, 1, 3]]);
+// Of particles of different sizes the largest counts.
+assert.deepEqual(boxOf(drum, false), [[-1.3, -0.3, -2.3], [1.3, 0.3, 0.3]]);
+assert.deepEqual(boxOf({ ...drum, grains: [], low: [0, 0, 0], high: [0, 0, 0] }, false), [[-3, -1, -3], [3, 1, 3]]);
+assert.deepEqual(boxOf({ low: [0, 0, 0], high: [0, 0, 0], grains: [], walls: [] }, true), [[-1, -1, -1], [1, 1, 1]]);
+
+// A ball of diameter 1 at that distance: half of the angle under which it is seen is less than that of the picture's
+// height, and of its width, and not much less.
+for (const fieldOfView of [0.3, 0.6, 1.2])
+    for (const aspect of [0.3, 0.5, 1, 1.5, 3]) {
+        const seen = Math.asin(0.5 / distanceToSee(fieldOfView, aspect)), across = Math.atan(Math.tan(fieldOfView / 2) * aspect);
+        assert(seen < fieldOfView / 2 && seen < across && seen > 0.9 * Math.min(fieldOfView / 2, across), `${fieldOfView} ${aspect}`);
+    }
+"""
+
+
+@pytest.mark.skipif(not shutil.which("node"), reason="node is not installed")
+def test_the_camera_shows_all():
+    """All particles and walls, in pictures that are wide or narrow."""
+    done = subprocess.run(["node", "--input-type=module", "--eval", CAMERA, (SOURCE / "scene/box.js").as_uri()], capture_output=True, text=True, timeout=100)
+    assert done.returncode == 0, done.stderr

@@ -10,8 +10,7 @@ namespace pendular::snapshot {
 
 /// A perspective camera, its picture `width` by `height` pixels.
 struct Camera {
-    static constexpr double halfAngle = 0.19;   // rad, of the picture's height: a lens that distorts little
-    static constexpr double legendShare = 0.2;  // of the picture's width, on the right, without grains
+    static constexpr double halfAngle = 0.19;  // rad, of the picture's height: a lens that distorts little
 
     Vector<double> eye;                 // m
     Vector<double> right, up, forward;  // unit, a right-handed frame with -forward
@@ -22,10 +21,11 @@ struct Camera {
 };
 
 /// Looks at points from a direction, near enough that they fill the picture except for its margin.
-/// @param from the direction to the eye, of any length; @param margin of the half picture
+/// @param from the direction to the eye, of any length
+/// @param legendShare of the picture's width, on the right, where no points are to be
 inline Camera cameraOn(std::span<const Vector<double>> points, const Vector<double>& from, int width,
-                       int height, bool withLegend) {
-    constexpr double margin = 0.05;
+                       int height, double legendShare) {
+    constexpr double margin = 0.05;  // of the half picture
     Camera camera{{}, {}, {}, (-1 / norm(from)) * from, width, height};
     const Vector<double> vertical =
         std::abs(camera.forward.z) < 0.999 ? Vector<double>{0, 0, 1} : Vector<double>{0, 1, 0};
@@ -33,7 +33,7 @@ inline Camera cameraOn(std::span<const Vector<double>> points, const Vector<doub
     camera.right *= 1 / norm(camera.right);
     camera.up = cross(camera.right, camera.forward);
     const double upSlope = (1 - margin) * Camera::slope(), leftSlope = upSlope * camera.aspect();
-    const double rightSlope = leftSlope * (withLegend ? 1 - 2 * Camera::legendShare : 1);
+    const double rightSlope = leftSlope * (1 - 2 * legendShare);
     // A point is seen if its place across is at most slope times its distance along the view, on either side.
     // So each direction gives the least distance, and between which limits the eye may be.
     struct Ends {

@@ -71,4 +71,12 @@ inline std::vector<double> ticks(double lowest, double highest) {
     return found;
 }
 
+/// The significant digits that tell equidistant numbers apart; 4 of a single number.
+inline int digitsOf(const std::vector<double>& numbers) {
+    if (numbers.size() < 2) return 4;
+    const auto decade = [](double number) { return static_cast<int>(std::floor(std::log10(number))); };
+    const double largest = std::max(std::abs(numbers.front()), std::abs(numbers.back()));
+    return std::clamp(decade(largest) - decade(numbers[1] - numbers[0]) + 1, 1, 17);
+}
+
 }  // namespace pendular::snapshot

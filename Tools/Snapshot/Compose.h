@@ -112,14 +112,16 @@ inline Legend legendOf(const Scalar& scalar, const Span& span, const View& view)
     Legend legend{label(scalar.name), scalar.areNames ? nullptr : &mapOf(view), {}};
     if (scalar.areNames) {
         const std::set<double> names(scalar.values.begin(), scalar.values.end());
-        double place = 0.5 + 0.08 * static_cast<double>(names.size() - 1);
+        double place = 0.5 + 0.08 * (static_cast<double>(names.size()) - 1);
         for (const double name : names) {
-            legend.marks.push_back({place, fmt::format("{:g}", name), namedColour(name)});
+            legend.marks.push_back({place, fmt::format("{:.0f}", name), namedColour(name)});
             place -= 0.16;
         }
     } else {
-        for (const double tick : ticks(span.lowest, span.highest))
-            legend.marks.push_back({span.share(tick), fmt::format("{:.4g}", tick), {}});
+        const std::vector<double> numbers = ticks(span.lowest, span.highest);
+        const int digits = digitsOf(numbers);
+        for (const double number : numbers)
+            legend.marks.push_back({span.share(number), fmt::format("{:.{}g}", number, digits), {}});
     }
     return legend;
 }

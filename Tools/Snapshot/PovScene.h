@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "Kernel/Walls/WallSurface.h"
 #include "Tools/Snapshot/Camera.h"
 #include "Tools/Snapshot/Colours.h"
+#include "Tools/Snapshot/Legend.h"
 
 namespace pendular::snapshot {
 
@@ -29,17 +31,6 @@ struct Rod {
     double radius;              // m
     Colour colour;
     double transparency;
-};
-/// A bar of colours with numbers, or a square for each name.
-struct Legend {
-    struct Mark {
-        double place;  // along the bar, from 0 to 1
-        std::string text;
-        std::optional<Colour> square;
-    };
-    std::string title;
-    const ColourMap* map = nullptr;  // of the bar; none with squares
-    std::vector<Mark> marks;
 };
 struct Picture {
     std::vector<Ball> balls;
@@ -63,7 +54,7 @@ public:
         writeGrains();
         writeWalls();
         if (picture.legend) writeLegend(*picture.legend);
-        if (!picture.caption.empty()) writeText(picture.caption, -camera.aspect() + 0.04, -0.96, 0.07);
+        if (!picture.caption.empty()) writeCaption();
         return std::move(out);
     }
 
@@ -175,10 +166,11 @@ private:
             a, b, d, e, colour(c));
     }
     void writeLegend(const Legend& legend) {
-        const double strip = 2 * camera.aspect() * Camera::legendShare, letters = 0.07;
-        const double left = camera.aspect() - 0.85 * strip, bottom = -0.6, top = 0.6, wide = 0.09;
-        const double titleHeight = legend.map ? top : bottom + (top - bottom) * legend.marks.front().place;
-        writeText(legend.title, camera.aspect() - 0.5 * strip, titleHeight + 0.12, letters, true);
+        const LegendPlace place = placeOf(legend, camera.aspect());
+        const double letters = place.letters, left = place.left, wide = place.bar, bottom = -0.6, top = 0.6;
+        const bool isBar = legend.map || legend.marks.empty();
+        const double titleHeight = isBar ? top : bottom + (top - bottom) * legend.marks.front().place;
+        writeText(legend.title, camera.aspect() - 0.5 * place.strip, titleHeight + 0.12, letters, true);
         if (legend.map) {
             constexpr int shades = 128;
             for (int k = 0; k < shades; ++k)
@@ -190,8 +182,13 @@ private:
             const double y = bottom + (top - bottom) * mark.place;
             if (mark.square) writeRectangle(left, y - 0.5 * wide, left + wide, y + 0.5 * wide, *mark.square);
             else writeRectangle(left + wide, y - 0.003, left + 1.25 * wide, y + 0.003, {0.1, 0.1, 0.1});
-            writeText(mark.text, left + 1.5 * wide, y - 0.33 * letters, letters);
+            writeText(mark.text, place.textLeft(), y - 0.33 * letters, letters);
         }
+    }
+    void writeCaption() {
+        constexpr double margin = 0.04;
+        const double room = 2 * (camera.aspect() - margin) / widthOf(picture.caption);
+        writeText(picture.caption, -camera.aspect() + margin, -0.96, std::min(0.07, room));
     }
 
     static constexpr double near = 0.3;  // of the scene's size: before all grains

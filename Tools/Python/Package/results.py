@@ -95,12 +95,16 @@ def draw(scene: _kernel.Scene, color: Union[str, np.ndarray, None] = None, *, al
                               transOffset=axes.transData, array=values[front], cmap=colormap, edgecolors="k",
                               linewidths=0.3)
     axes.add_collection(discs)
+    shown = [place - radius[:, None], place + radius[:, None]]
     if walls:
-        corners = [polygon[:, [across, up]] for polygon in _polygons(scene)]
+        polygons = _polygons(scene)
+        corners = [polygon[:, [across, up]] for polygon in polygons]
         axes.add_collection(PolyCollection(corners, facecolors="none", edgecolors="0.6", linewidths=0.5, zorder=0))
+        shown += polygons
     axes.set(aspect="equal", xlabel=f"{'xyz'[across]} (m)", ylabel=f"{'xyz'[up]} (m)")
     if len(front):
-        low, high = (place - radius[:, None]).min(0), (place + radius[:, None]).max(0)
+        points = np.concatenate(shown)
+        low, high = points.min(0), points.max(0)
         axes.set(xlim=(low[across], high[across]), ylim=(low[up], high[up]))
     if color is not None:
         axes.figure.colorbar(discs, ax=axes, label=label)

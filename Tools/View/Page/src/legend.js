@@ -31,7 +31,7 @@ export function rangeOf(values) {
 /** Two fields for the ends of the colours; `of(values)` gives those that hold. */
 export class Range {
     constructor(onChange) {
-        this.ends = ["lowest", "highest"].map((word) => make("input", { type: "text", inputmode: "decimal", placeholder: `${word}, by frame`, "aria-label": `${word} of the colours`, change: () => { this.#take(); onChange(); } }));
+        this.ends = [["lowest", "min"], ["highest", "max"]].map(([word, short]) => make("input", { type: "text", inputmode: "decimal", placeholder: `${short} (auto)`, "aria-label": `${word} of the colours`, change: () => { this.#take(); onChange(); } }));
         this.element = make("div", { class: "pair" }, ...this.ends);
     }
 

@@ -1,4 +1,5 @@
 import { vec3 } from "gl-matrix";
+import { boxOf } from "./box.js";
 import { Camera } from "./camera.js";
 import { colourMap } from "./colours.js";
 import { arranged, frontToBack } from "./order.js";
@@ -42,7 +43,7 @@ export class Scene {
     }
 
     lookAtAll() {
-        if (this.frame) this.camera.lookAt(...boxOf(this.frame));
+        if (this.frame) this.camera.lookAt(...boxOf(this.frame, this.look.walls), this.#aspect());
     }
 
     /**
@@ -273,18 +274,4 @@ function rodsOfContacts(frame) {
         rods[i + 7] = contacts[i + 3];
     }
     return rods;
-}
-
-/** The corners of the box around grains; around walls where there are no grains. */
-function boxOf({ low, high, walls, grains }) {
-    if (grains.length > 0) {
-        const radius = Math.abs(grains[3]);
-        return [low.map((x) => x - radius), high.map((x) => x + radius)];
-    }
-    const lowest = [Infinity, Infinity, Infinity], highest = [-Infinity, -Infinity, -Infinity];
-    for (let i = 0; i < walls.length; ++i) {
-        lowest[i % 3] = Math.min(lowest[i % 3], walls[i]);
-        highest[i % 3] = Math.max(highest[i % 3], walls[i]);
-    }
-    return walls.length > 0 ? [lowest, highest] : [[-1, -1, -1], [1, 1, 1]];
 }

@@ -1,4 +1,5 @@
 import { mat4, vec3 } from "gl-matrix";
+import { distanceToSee } from "./box.js";
 
 /** A camera that turns about a point; z is up. */
 export class Camera {
@@ -9,11 +10,11 @@ export class Camera {
     fieldOfView = 0.6;  // rad
     size = 1;  // m, of what is looked at
 
-    /** Looks at all of a box. */
-    lookAt(low, high) {
+    /** Looks at all of a box, from any direction, in a picture that is `aspect` times as wide as high. */
+    lookAt(low, high, aspect) {
         this.target = vec3.scale(vec3.create(), vec3.add(vec3.create(), low, high), 0.5);
         this.size = Math.max(vec3.distance(low, high), 1e-12);
-        this.distance = 1.75 * this.size;
+        this.distance = this.size * distanceToSee(this.fieldOfView, aspect);
     }
 
     from(turn, tilt) {
