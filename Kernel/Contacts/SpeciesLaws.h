@@ -36,6 +36,7 @@ public:
         isPlastic = HasNormalHistory<typename S::Normal>;
         overlapLimit = pendular::overlapLimit<typename S::Mixed>();
         largestOverlapInRun = pendular::largestOverlapInRun<typename S::Mixed>();
+        overlapAdvice = pendular::overlapAdvice<typename S::Mixed>();
     }
 
     [[nodiscard]] std::size_t speciesCount() const override { return species.getSize(); }

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <span>
+
+#include "Kernel/Math/Quaternion.h"
+
+namespace pendular {
+
+/// A sphere of a rigid body.
+struct SphereOfBody {
+    Vector<double> arm;  // m, from the centre of mass, in the principal axes
+    double radius;       // m
+};
+
+/// By how much the contacts that a rigid body can have at once move it, of all motions the one that they move
+/// most, over that of a free solid sphere of the same mass with contacts all around. Numbers of the shape,
+/// whatever its size: contacts of one spring k move the body with the squared frequencies
+///   along x normal x k_n / M,  across x sliding x k_t / M
+/// where a sphere has along x k_n / M and across x k_t / M (StabilityLimit.h). Of the motions that springs of
+/// friction turn alone it is spin, and of the torques of contacts (R times the relative spin) turning; of a
+/// sphere both are 5/2.
+///
+/// Source: contacts lie on the surface of the body as densely as on a free sphere, twelve on all of it. The
+/// stiffness matrix of 6 x 6 is the integral over the parts of the spheres that are in no other one, of the
+/// squares of n.(v + w x a) and of the parts across n, with the arm a of the place; its largest eigenvalue
+/// over mass and moments is exact. Where spheres are so dense that one grain touches several at an overlap of
+/// 5 %, all of these count. A sphere whose surface is exposed anywhere has one contact at least.
+struct ContactsAround {
+    double normal = 1, sliding = 1;  // of shift and spin together
+    double spin = 2.5, turning = 2.5;
+    double mean = 1, most = 1;  // spheres of the body that a grain on it touches at once
+
+    /// Where all numbers are not above those of another body, but for the last digit that is kept.
+    [[nodiscard]] bool areWithin(const ContactsAround& other) const;
+    /// To ten binary digits, upwards, of numbers that are so many times as large: bodies of one shape have
+    /// the same, and no bit depends on their order.
+    [[nodiscard]] ContactsAround roundedUp(double factor = 1) const;
+    friend bool operator==(const ContactsAround&, const ContactsAround&) = default;
+};
+
+/// @param mass kg; @param moments kg m^2, about the principal axes
+/// @param frame turns the principal axes into those in which the shape is given, so that all bodies of one
+/// shape are looked at from the same directions
+[[nodiscard]] ContactsAround contactsAround(std::span<const SphereOfBody> spheres, double mass,
+                                            const Vector<double>& moments, const Quaternion& frame = {});
+/// Of a block, all of whose faces lie on those of its equals: on each face its four corners touch the other
+/// block, and the other's four touch it.
+/// @param corners its corners, spheres with the radius of its edges
+[[nodiscard]] ContactsAround contactsAroundBlock(std::span<const SphereOfBody> corners, double mass,
+                                                 const Vector<double>& moments);
+/// Of a body that moves at each of its contacts as a free solid sphere of another mass (kg) would.
+[[nodiscard]] ContactsAround contactsAroundAs(double massAtContacts, double mass);
+
+}  // namespace pendular
