@@ -63,7 +63,7 @@ void addClump(ParticleStore& one, const ClumpTemplate& shape, double density) {
 
 /// What the stability limit counts with for all clumps or superquadrics of a kind.
 /// @param density kg/m^3; @param turning of a superquadric's extreme contact
-BodiesAlike bodiesOf(const BodyKind& kind, double density, double turning) {
+BodiesAlike alikeOf(const BodyKind& kind, double density, double turning) {
     ParticleStore one;
     if (kind.clump()) addClump(one, kind.clump()->getTemplate(), density);
     else {
@@ -82,6 +82,7 @@ BodiesAlike bodiesOf(const BodyKind& kind, double density, double turning) {
                                  kind.largestSphere(radius)};
     };
     alike.add(sizeOf(kind.sizes.smallest()), sizeOf(kind.sizes.largest()));
+    alike.count = 2;  // any number may come
     return alike;
 }
 
@@ -168,8 +169,8 @@ std::vector<InletHandler::Sizes> InletHandler::sizes(const GrainSpecies& species
             Sizes sizes{kind.smallestSphere(0.5 * kind.sizes.smallest()),
                         kind.largestSphere(0.5 * kind.sizes.largest()), kind.species(), std::nullopt};
             if (!kind.grain())
-                sizes.bodies = bodiesOf(kind, species.density(static_cast<std::size_t>(kind.species())),
-                                        kept.turnings[k]);
+                sizes.bodies = alikeOf(kind, species.density(static_cast<std::size_t>(kind.species())),
+                                       kept.turnings[k]);
             all.push_back(sizes);
         }
     return all;

@@ -7,6 +7,8 @@
 
 #include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Motion/SceneLimits.h"
+#include "Kernel/Walls/InfiniteWall.h"
+#include "Kernel/Walls/TriangleWall.h"
 
 namespace pendular {
 
@@ -15,12 +17,36 @@ namespace {
 /// One side of a contact.
 struct Side {
     std::size_t species;
-    double radius;       // m; infinite of a wall; of a block that of its edges
-    double flat = 0;     // m, of a block: the largest that counts on its faces
-    double mass;         // kg; infinite of what does not move, or may not
-    double spheres = 1;  // of a body that another grain touches at once, in the mean
+    double radius;         // m; infinite of a wall; of a block that of its edges
+    double flat = 0;       // m, of a block: the largest that counts on its faces
+    double mass;           // kg; infinite of what does not move, or may not
+    double spheres = 1;    // of a body that another grain touches at once, in the mean
+    bool isPlane = false;  // of a wall
+    double finer = 0;      // 1/m, and
+    double finest = 0;     // 1/m^2: means of 1/r and 1/r^2 over the surface of a body
     [[nodiscard]] bool isBlock() const { return flat > 0; }
 };
+
+/// Whether the wall has no hollow that a body may fit into, so that it touches all of its spheres at once.
+/// (Of meshes it is supposed.)
+bool isFlat(const Wall& wall) {
+    return dynamic_cast<const InfiniteWall*>(&wall) || dynamic_cast<const TriangleWall*>(&wall);
+}
+
+/// How many bodies there are: one that is alone touches no other.
+std::size_t countOf(const std::vector<BodiesAlike>& bodies) {
+    std::size_t count = 0;
+    for (const BodiesAlike& one : bodies) count += one.count;
+    return count;
+}
+
+/// From how many sides, up to two, plane walls may touch a body.
+double sidesOfPlanes(const WallHandler& walls) {
+    double sides = 0;
+    for (const PresentWall& wall : walls.present())
+        sides += dynamic_cast<const InfiniteWall*>(wall.object.get()) ? 1 : isFlat(*wall.object) ? 2 : 0;
+    return std::min(sides, 2.0);
+}
 
 /// What bodies may touch: the extremes of each species.
 std::vector<Side> partners(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls) {
@@ -33,28 +59,34 @@ std::vector<Side> partners(const ContactLaws& species, const GrainSizes& grains,
         for (const double radius : {sizes.smallest, sizes.largest})
             found.push_back({.species = s, .radius = radius, .mass = heaviest});
     }
-    for (std::size_t s = 0; s < grains.all.size(); ++s)
+    for (std::size_t s = 0; s < grains.all.size() && countOf(grains.bodies) > 1; ++s)
         for (const bool blocks : {false, true}) {
             Side smallest{.species = s, .radius = infinity, .mass = 0},
                 largest{.species = s, .radius = 0, .mass = 0};
             for (const BodiesAlike& body : grains.bodies) {
                 if (body.species != s || body.isBlock != blocks) continue;
-                smallest.radius = std::min({smallest.radius, body.least.smallest, body.most.smallest});
-                const double own = blocks ? std::max(body.least.smallest, body.most.smallest)
-                                          : std::max(body.least.largest, body.most.largest);
+                const BodiesAlike::Size &light = body.least, &heavy = body.most;
+                smallest.radius = std::min({smallest.radius, light.smallest, heavy.smallest});
+                const double own = blocks ? std::max(light.smallest, heavy.smallest)
+                                          : std::max(light.largest, heavy.largest);
                 largest.radius = std::max(largest.radius, own);
-                largest.mass = std::max(largest.mass, body.most.mass);
+                largest.mass = std::max(largest.mass, heavy.mass);
                 largest.spheres = std::max(largest.spheres, body.around.mean);
-                if (blocks) largest.flat = std::max({largest.flat, body.least.largest, body.most.largest});
+                const double widest = light.largest;
+                largest.finer = std::max(largest.finer, body.around.finer / widest);
+                largest.finest = std::max(largest.finest, body.around.finest / (widest * widest));
+                if (blocks) largest.flat = std::max({largest.flat, light.largest, heavy.largest});
             }
             if (!(largest.mass > 0)) continue;
             smallest.mass = largest.mass, smallest.spheres = largest.spheres, smallest.flat = largest.flat;
+            smallest.finer = largest.finer, smallest.finest = largest.finest;
             found.push_back(smallest), found.push_back(largest);
         }
     for (const PresentWall& wall : walls.present())
         found.push_back({.species = static_cast<std::size_t>(wall.object->getSpeciesIndex()),
                          .radius = infinity,
-                         .mass = infinity});
+                         .mass = infinity,
+                         .isPlane = isFlat(*wall.object)});
     return found;
 }
 
@@ -68,15 +100,16 @@ Bodies touchOf(const Side& one, const Side& two) {
     return Bodies{std::max(block.radius, std::min(other.radius, block.flat)), infinity};
 }
 
-/// More grains than are supposed find room on a body if they are smaller than its spheres, or, of a block, on
-/// a face on which eight are supposed: hexagonal layers.
+/// More grains than are supposed find room on a body if they are smaller than its spheres: on a sphere of
+/// radius R those of radius r, ((R + r) / 2 r)^2 times as many, and of the spheres of bodies the mean over
+/// their surface. On the face of a block eight are supposed, and there is room for a hexagonal layer.
 double roomFor(const Side& partner, const Side& own, double face) {
-    if (!(partner.radius < own.radius) && !own.isBlock()) return 1;
     if (partner.isBlock() || !(partner.radius < infinity)) return 1;
-    if (own.isBlock())
-        return std::max(1.0, face / (2 * std::numbers::sqrt3 * partner.radius * partner.radius) / 8);
-    const double wide = (own.radius + partner.radius) / (2 * partner.radius);
-    return wide * wide;
+    const double radius = partner.radius;
+    if (own.isBlock()) return std::max(1.0, face / (2 * std::numbers::sqrt3 * radius * radius) / 8);
+    const double ofOne = 1 / radius, finer = partner.finer > 0 ? partner.finer : ofOne,
+                 finest = partner.finest > 0 ? partner.finest : ofOne * ofOne;
+    return std::max(1.0, 0.25 * (own.radius * own.radius * finest + 2 * own.radius * finer + 1));
 }
 
 /// Contacts of one side, as if each of the other were at rest, over the mass.
@@ -111,6 +144,17 @@ public:
                           .spin = unit * (met.across * around.spin * s.sliding + turning)},
                          contact, 4 * around.normal / mass);
     }
+    /// Of a body at planes on so many sides.
+    [[nodiscard]] BodyLoad ofBodyAtPlanes(const Contact& contact, const ContactsAround& around, double mass,
+                                          double sides) const {
+        const ContactStiffness& s = contact.stiffness;
+        const double unit = sides / mass, turn = around.turning * squaredLeverOfRotation(contact.bodies);
+        const SpringAndDashpot turning = turn * (s.rolling + s.torsion);
+        return completed(
+            {.all = unit * (around.wallNormal * s.normal + around.wallSliding * s.sliding + turning),
+             .spin = unit * (around.wallSpin * s.sliding + turning)},
+            contact, around.wallNormal / mass);
+    }
     /// Of a free sphere, each of whose contacts is with so many spheres.
     [[nodiscard]] BodyLoad ofSphere(const Contact& contact, double mass, double spheres) const {
         const ContactStiffness& s = contact.stiffness;
@@ -140,6 +184,12 @@ BodyLoad largest(const BodyLoad& a, const BodyLoad& b) {
             std::min(a.neighbours, b.neighbours)};
 }
 
+/// A load, and a share of another one.
+BodyLoad sum(const BodyLoad& a, const BodyLoad& b, double share) {
+    return {a.all + share * b.all, a.spin + share * b.spin, std::min(a.relaxation, b.relaxation),
+            std::min(a.neighbours, b.neighbours)};
+}
+
 /// The sides of a body: with its smallest and its largest grains.
 std::array<Side, 2> sidesOf(const BodiesAlike& body, const BodiesAlike::Size& size) {
     Side smallest{.species = body.species, .radius = size.smallest, .mass = size.mass}, largest = smallest;
@@ -156,13 +206,24 @@ BodyLoad loadOfBodies(const ContactLaws& species, const GrainSizes& grains, cons
     const GrainSizes alone = grains.withoutBodies();
     BodyLoad ofBodies, ofSpheres;
     const std::vector<Side> all = partners(species, grains, walls);
+    const double sides = sidesOfPlanes(walls);
     for (const BodiesAlike& body : grains.bodies)
         for (const BodiesAlike::Size& size : {body.least, body.most})
             for (const Side& own : sidesOf(body, size)) {
-                for (const Side& partner : all)
-                    ofBodies =
-                        largest(ofBodies, loads.ofBody(loads.contactOf(own, partner), body.around, size.mass,
-                                                       partner.spheres * roomFor(partner, own, size.face)));
+                BodyLoad amongOthers, atPlanes;
+                for (const Side& partner : all) {
+                    const Loads::Contact contact = loads.contactOf(own, partner);
+                    if (partner.isPlane)
+                        atPlanes =
+                            largest(atPlanes, loads.ofBodyAtPlanes(contact, body.around, size.mass, sides));
+                    else
+                        amongOthers = largest(
+                            amongOthers, loads.ofBody(contact, body.around, size.mass,
+                                                      partner.spheres * roomFor(partner, own, size.face)));
+                }
+                // Planes on two sides leave room for half of the others.
+                ofBodies = largest(ofBodies, amongOthers);
+                ofBodies = largest(ofBodies, sum(atPlanes, amongOthers, 0.5));
                 // A sphere among such bodies, or on one at its densest place.
                 const double touched = std::max(body.around.mean, body.around.most / loads.along());
                 for (std::size_t s = 0; s < alone.free.size(); ++s)
@@ -179,8 +240,12 @@ BodyLoad loadOfBodies(const ContactLaws& species, const GrainSizes& grains, cons
         const double own = species.massOf(static_cast<std::size_t>(pair.a), bodies.radius1);
         ofSpheres = largest(ofSpheres, loads.ofSphere({stiffness, bodies, mass}, own, 1));
     });
-    BodyLoad both = largest(ofBodies, ofSpheres);
+    // One that is alone touches only what does not move.
+    const bool isOnly = countOf(grains.bodies) == 1 && std::ranges::all_of(alone.free, &SizeRange::empty);
+    BodyLoad both = isOnly ? BodyLoad{} : largest(ofBodies, ofSpheres);
     both.all = both.all + ofBodies.all, both.spin = both.spin + ofBodies.spin;
+    both.relaxation = std::min(both.relaxation, ofBodies.relaxation);
+    both.neighbours = std::min(both.neighbours, ofBodies.neighbours);
     return both;
 }
 

@@ -24,6 +24,11 @@ void BodiesAlike::add(const Size& lightest, const Size& heaviest) {
     takeIf(heaviest.mass > most.mass, heaviest, most);
 }
 
+void BodiesAlike::add(const BodiesAlike& others) {
+    add(others.least, others.most);
+    count += others.count;
+}
+
 bool BodiesAlike::hold(const BodiesAlike& others) const {
     constexpr double rounding = 1e-9;
     return species == others.species && isBlock == others.isBlock && others.around.areWithin(around) &&
@@ -33,7 +38,7 @@ bool BodiesAlike::hold(const BodiesAlike& others) const {
 void addTo(std::vector<BodiesAlike>& all, const BodiesAlike& bodies) {
     const auto same = std::ranges::find_if(all, [&](const BodiesAlike& b) { return b.isLike(bodies); });
     if (same == all.end()) all.push_back(bodies);
-    else same->add(bodies.least, bodies.most);
+    else same->add(bodies);
 }
 
 /// What Hertz's law takes of a block.
@@ -61,6 +66,7 @@ std::vector<BodiesAlike> bodiesAt(const ParticleStore& grains, std::size_t at) {
         addTo(found, one);
         if (isBlock) break;
     }
+    for (BodiesAlike& one : found) one.count = 1;  // of its grains there are more
     return found;
 }
 
@@ -69,16 +75,13 @@ std::vector<BodiesAlike> bodiesOf(const ParticleStore& grains, const AllRanks& r
     for (std::size_t k = 0; k < grains.bodies.size(); ++k)
         for (const BodiesAlike& one : bodiesAt(grains, k)) own.push_back(one);
     // By shape, so that a scene of many has few of them.
-    using Key = std::tuple<std::size_t, bool, std::array<double, 6>>;
-    const auto keyOf = [](const BodiesAlike& b) -> Key {
-        const ContactsAround& a = b.around;
-        return {b.species, b.isBlock, {a.normal, a.sliding, a.spin, a.turning, a.mean, a.most}};
-    };
+    using Key = std::tuple<std::size_t, bool, std::array<double, 11>>;
+    const auto keyOf = [](const BodiesAlike& b) -> Key { return {b.species, b.isBlock, b.around.numbers()}; };
     const auto merged = [&](const std::vector<BodiesAlike>& all) {
         std::map<Key, BodiesAlike> byShape;
         for (const BodiesAlike& one : all) {
             const auto [place, isNew] = byShape.try_emplace(keyOf(one), one);
-            if (!isNew) place->second.add(one.least, one.most);
+            if (!isNew) place->second.add(one);
         }
         std::vector<BodiesAlike> few;
         for (const auto& [key, one] : byShape) few.push_back(one);

@@ -15,15 +15,17 @@ struct BodiesAlike {
         double mass;               // kg
         double smallest, largest;  // m, of its grains; of a block the radius of its edges, and the largest
                                    // that Hertz's law takes for a sphere on one of its faces
-        double face = 0;  // m^2, the largest face of a block
+        double face = 0;           // m^2, the largest face of a block
     };
     std::size_t species = 0;
     bool isBlock = false;
     ContactsAround around{};
     Size least{infinity, infinity, 0}, most{0, infinity, 0};  // the lightest and the heaviest
+    std::size_t count = 1;                                    // that there are
 
     void add(const Size& size) { add(size, size); }
     void add(const Size& lightest, const Size& heaviest);
+    void add(const BodiesAlike& others);
     /// The same shape and species.
     [[nodiscard]] bool isLike(const BodiesAlike& other) const {
         return species == other.species && isBlock == other.isBlock && around == other.around;

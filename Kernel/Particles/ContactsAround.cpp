@@ -132,6 +132,70 @@ private:
     std::vector<std::vector<std::uint32_t>> near;
 };
 
+/// A plane wall, by its contacts: the spheres of a body that it touches.
+class PlaneContacts {
+public:
+    PlaneContacts(std::span<const SphereOfBody> of, double ofBody, const Vector<double>& about)
+        : spheres(of), mass(ofBody), moments(about) {}
+
+    /// Of all planes across these directions, the principal axes, and the directions of some of the spheres.
+    void findMost(std::span<const Eigen::Vector3d> directions, const Quaternion& frame,
+                  ContactsAround& found) {
+        for (const Eigen::Vector3d& direction : directions) look(frame.turnBack(toVector(direction)));
+        for (const double side : {-1.0, 1.0})
+            for (const Vector<double>& axis : {Vector<double>{1, 0, 0}, {0, 1, 0}, {0, 0, 1}})
+                look(side * axis);
+        const std::size_t each = 1 + spheres.size() / 1000;  // those between are near some of these
+        for (std::size_t k = 0; k < spheres.size(); k += each)
+            if (const double length = norm(spheres[k].arm); length > 0) look((1 / length) * spheres[k].arm);
+        // Those with most come first, so that few of the others can have a larger eigenvalue.
+        std::ranges::sort(seen, {}, [](const Seen& plane) { return -plane.trace; });
+        found.wallNormal = found.wallSliding = found.wallSpin = 0;
+        for (const Seen& plane : seen) {
+            // The part across has two tangents, and so at most the shift and the spin of twice as many.
+            if (plane.trace <= std::min({found.wallNormal, found.wallSliding, found.wallSpin})) break;
+            Sums sums(mass, moments);
+            for (const SphereOfBody& sphere : spheres)
+                if (isTouched(sphere, plane))
+                    sums.add(toEigen(sphere.arm + sphere.radius * plane.normal), toEigen(plane.normal), 1, 1);
+            found.wallNormal = std::max(found.wallNormal, sums.ofNormal());
+            found.wallSliding = std::max(found.wallSliding, sums.ofSliding());
+            found.wallSpin = std::max(found.wallSpin, sums.ofSpin());
+        }
+    }
+
+private:
+    struct Seen {
+        Vector<double> normal, farthest;  // m, the centre of the farthest sphere
+        double height, slack;             // m
+        double trace;                     // of the squares of all slips, an upper bound
+    };
+    static bool isTouched(const SphereOfBody& sphere, const Seen& plane) {
+        const Vector<double> aside = sphere.arm - plane.farthest;
+        const double along = dot(aside, plane.normal);
+        return dot(sphere.arm, plane.normal) + sphere.radius >
+               plane.height - plane.slack - 0.03 * norm(aside - along * plane.normal);
+    }
+    void look(const Vector<double>& normal) {
+        Seen plane{normal, {0, 0, 0}, -infinity, 0, 0};
+        for (const SphereOfBody& sphere : spheres)
+            if (const double height = dot(sphere.arm, normal) + sphere.radius; height > plane.height)
+                plane.height = height, plane.farthest = sphere.arm,
+                plane.slack = overlapOfTouch * sphere.radius;
+        const double least = std::min({moments.x, moments.y, moments.z});
+        for (const SphereOfBody& sphere : spheres)
+            if (isTouched(sphere, plane)) {
+                const Vector<double> arm = sphere.arm + sphere.radius * normal;
+                plane.trace += 3 + 2 * mass * squaredNorm(arm) / least;
+            }
+        seen.push_back(plane);
+    }
+    std::span<const SphereOfBody> spheres;
+    double mass;             // kg
+    Vector<double> moments;  // kg m^2
+    std::vector<Seen> seen;
+};
+
 /// A contact that is the only one: at the farthest end of an arm, along the direction that moves the body
 /// most.
 double alone(std::span<const SphereOfBody> spheres, double mass, const Vector<double>& moments) {
@@ -143,15 +207,31 @@ double alone(std::span<const SphereOfBody> spheres, double mass, const Vector<do
 
 }  // namespace
 
+std::array<double, 11> ContactsAround::numbers() const {
+    return {normal, sliding, spin, turning, mean, most, wallNormal, wallSliding, wallSpin, finer, finest};
+}
+
 bool ContactsAround::areWithin(const ContactsAround& other) const {
     constexpr double digit = 1 + 3.0 / 1024;
-    return normal <= digit * other.normal && sliding <= digit * other.sliding && spin <= digit * other.spin &&
-           turning <= digit * other.turning && mean <= digit * other.mean && most <= digit * other.most;
+    const std::array<double, 11> own = numbers(), others = other.numbers();
+    for (std::size_t k = 0; k < own.size(); ++k)
+        if (own[k] > digit * others[k]) return false;
+    return true;
 }
 
 ContactsAround ContactsAround::roundedUp(double factor) const {
     const auto up = [factor](double value) { return upwards(factor * value); };
-    return {up(normal), up(sliding), up(spin), up(turning), up(mean), up(most)};
+    return {.normal = up(normal),
+            .sliding = up(sliding),
+            .spin = up(spin),
+            .turning = up(turning),
+            .mean = up(mean),
+            .most = up(most),
+            .wallNormal = up(wallNormal),
+            .wallSliding = up(wallSliding),
+            .wallSpin = up(wallSpin),
+            .finer = up(finer),
+            .finest = up(finest)};
 }
 
 ContactsAround contactsAround(std::span<const SphereOfBody> spheres, double mass,
@@ -161,6 +241,8 @@ ContactsAround contactsAround(std::span<const SphereOfBody> spheres, double mass
     const double perDirection = 1 / static_cast<double>(directions.size());
     Sums sums(mass, moments);
     double touched = 0, places = 0, most = 1, rims = 0;  // rims: m^2
+    double surface = 0, overRadius = 0, overSquare = 0;  // m^2 of the surface, and m and 1 over r and r^2
+    double widest = 0;                                   // m
     std::vector<std::pair<Eigen::Vector3d, double>> exposed;
     for (std::uint32_t k = 0; k < spheres.size(); ++k) {
         const auto& [arm, radius] = spheres[k];
@@ -172,6 +254,9 @@ ContactsAround contactsAround(std::span<const SphereOfBody> spheres, double mass
             exposed.emplace_back(toEigen(normal), count);
             touched += count, places += 1, most = std::max(most, count);
         }
+        const double open = static_cast<double>(exposed.size()) * radius * radius;
+        surface += open, overRadius += open / radius, overSquare += open / (radius * radius);
+        widest = std::max(widest, radius);
         // Of twelve contacts a direction has a share; all that are exposed have one at least together.
         const double least =
             1 / (3 * alongAll * static_cast<double>(std::max<std::size_t>(exposed.size(), 1)));
@@ -183,12 +268,15 @@ ContactsAround contactsAround(std::span<const SphereOfBody> spheres, double mass
         }
     }
     const double smallest = std::min({moments.x, moments.y, moments.z}), one = alone(spheres, mass, moments);
-    const ContactsAround found{.normal = std::max(sums.ofNormal(), one / alongAll),
-                               .sliding = std::max(sums.ofSliding(), one / acrossAll),
-                               .spin = sums.ofSpin(),
-                               .turning = mass * rims / smallest,
-                               .mean = places > 0 ? touched / places : 1,
-                               .most = most};
+    ContactsAround found{.normal = std::max(sums.ofNormal(), most * one / alongAll),
+                         .sliding = std::max(sums.ofSliding(), most * one / acrossAll),
+                         .spin = sums.ofSpin(),
+                         .turning = mass * rims / smallest,
+                         .mean = places > 0 ? touched / places : 1,
+                         .most = most,
+                         .finer = surface > 0 ? widest * overRadius / surface : 1,
+                         .finest = surface > 0 ? widest * widest * overSquare / surface : 1};
+    PlaneContacts(spheres, mass, moments).findMost(directions, frame, found);
     return found.roundedUp();
 }
 
@@ -204,16 +292,32 @@ ContactsAround contactsAroundBlock(std::span<const SphereOfBody> corners, double
             sums.add(corner + radius * normal, normal, 2 / alongAll, 2 / acrossAll);
             rims += 2 / (3 * alongAll) * radius * radius;
         }
-    return ContactsAround{.normal = sums.ofNormal(),
-                          .sliding = sums.ofSliding(),
-                          .spin = sums.ofSpin(),
-                          .turning = mass * rims / std::min({moments.x, moments.y, moments.z})}
-        .roundedUp();
+    ContactsAround found{.normal = sums.ofNormal(),
+                         .sliding = sums.ofSliding(),
+                         .spin = sums.ofSpin(),
+                         .turning = mass * rims / std::min({moments.x, moments.y, moments.z})};
+    found.wallNormal = found.wallSliding = found.wallSpin = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const Eigen::Vector3d normal = Eigen::Vector3d::Unit(axis);
+        Sums face(mass, moments);
+        for (const auto& [arm, radius] : corners)
+            if (toEigen(arm)[axis] > 0) face.add(toEigen(arm) + radius * normal, normal, 1, 1);
+        found.wallNormal = std::max(found.wallNormal, face.ofNormal());
+        found.wallSliding = std::max(found.wallSliding, face.ofSliding());
+        found.wallSpin = std::max(found.wallSpin, face.ofSpin());
+    }
+    return found.roundedUp();
 }
 
 ContactsAround contactsAroundAs(double massAtContacts, double mass) {
     const double share = mass / massAtContacts;
-    return ContactsAround{.normal = share, .sliding = share, .spin = 2.5 * share, .turning = 2.5 * share}
+    return ContactsAround{.normal = share,
+                          .sliding = 2.5 * share,
+                          .spin = 2.5 * share,
+                          .turning = 2.5 * share,
+                          .wallNormal = share,
+                          .wallSliding = 3.5 * share,
+                          .wallSpin = 2.5 * share}
         .roundedUp();
 }
 

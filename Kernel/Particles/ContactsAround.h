@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "Kernel/Math/Quaternion.h"
@@ -16,20 +17,29 @@ struct SphereOfBody {
 /// most, over that of a free solid sphere of the same mass with contacts all around. Numbers of the shape,
 /// whatever its size: contacts of one spring k move the body with the squared frequencies
 ///   along x normal x k_n / M,  across x sliding x k_t / M
-/// where a sphere has along x k_n / M and across x k_t / M (StabilityLimit.h). Of the motions that springs of
-/// friction turn alone it is spin, and of the torques of contacts (R times the relative spin) turning; of a
-/// sphere both are 5/2.
+/// where a sphere has along x k_n / M, and across x k_t / M of shifts alone (StabilityLimit.h). Of the
+/// motions that springs of friction turn alone it is spin, and of the torques of contacts (R times the
+/// relative spin) turning; of a sphere both are 5/2.
 ///
 /// Source: contacts lie on the surface of the body as densely as on a free sphere, twelve on all of it. The
 /// stiffness matrix of 6 x 6 is the integral over the parts of the spheres that are in no other one, of the
 /// squares of n.(v + w x a) and of the parts across n, with the arm a of the place; its largest eigenvalue
 /// over mass and moments is exact. Where spheres are so dense that one grain touches several at an overlap of
-/// 5 %, all of these count. A sphere whose surface is exposed anywhere has one contact at least.
+/// 5 %, all of these count. A sphere whose surface is exposed anywhere has one contact at least. A plane
+/// touches those spheres that are as far out as the farthest, less 5 % of the radius and a tenth of the way
+/// to them, for planes between those that are looked at.
 struct ContactsAround {
-    double normal = 1, sliding = 1;  // of shift and spin together
+    double normal = 1, sliding = 2.5;  // of shift and spin together
     double spin = 2.5, turning = 2.5;
     double mean = 1, most = 1;  // spheres of the body that a grain on it touches at once
+    /// The same of a plane wall that touches as many spheres at once as it can, over a single contact of a
+    /// sphere: k_n / M, k_t / M.
+    double wallNormal = 1, wallSliding = 3.5, wallSpin = 2.5;
+    /// The largest radius R over the radius r of its spheres, and the square: means over its surface, for the
+    /// room that they find on others.
+    double finer = 1, finest = 1;
 
+    [[nodiscard]] std::array<double, 11> numbers() const;
     /// Where all numbers are not above those of another body, but for the last digit that is kept.
     [[nodiscard]] bool areWithin(const ContactsAround& other) const;
     /// To ten binary digits, upwards, of numbers that are so many times as large: bodies of one shape have

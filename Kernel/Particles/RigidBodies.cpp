@@ -249,14 +249,19 @@ double RigidBodies::massAtContacts(const ParticleStore& grains, std::size_t at) 
     return mass * (sphere / volumes[at]) / (body.largestFreeMass * easiest);
 }
 
-ContactsAround RigidBodies::findContacts(const ParticleStore& grains, std::size_t at) const {
-    if (isSphere(grains, at)) return {};
-    const double mass = dryMassOf(at);
-    const Vector<double>& moments = dry.empty() ? bodies[at].inertia : dry[at].inertia;
+std::vector<SphereOfBody> RigidBodies::spheresOf(const ParticleStore& grains, std::size_t at) const {
     std::vector<SphereOfBody> spheres;
     for (std::uint32_t m = begins[at]; m < begins[at + 1]; ++m)
         spheres.push_back({dry.empty() ? members[m].arm : dryArms[m],
                            grains.translation[grains.place[members[m].grain]].radius});
+    return spheres;
+}
+
+ContactsAround RigidBodies::findContacts(const ParticleStore& grains, std::size_t at) const {
+    if (isSphere(grains, at)) return {};
+    const double mass = dryMassOf(at);
+    const Vector<double>& moments = dry.empty() ? bodies[at].inertia : dry[at].inertia;
+    const std::vector<SphereOfBody> spheres = spheresOf(grains, at);
     constexpr std::size_t firstCorner = 1, corners = 8;  // of Kernel/Superquadrics/Blocks.h
     if (isBlock(at))
         return contactsAroundBlock(std::span(spheres).subspan(firstCorner, corners), mass, moments);
@@ -264,8 +269,31 @@ ContactsAround RigidBodies::findContacts(const ParticleStore& grains, std::size_
     return contactsAround(spheres, mass, moments, frames[at]);
 }
 
+bool RigidBodies::haveOneShape(const ParticleStore& grains, std::size_t a, std::size_t b) const {
+    if (begins[a + 1] - begins[a] != begins[b + 1] - begins[b] || isBlock(a) != isBlock(b)) return false;
+    if (begins[a + 1] - begins[a] == 1) return false;  // found at once
+    const std::vector<SphereOfBody> ofA = spheresOf(grains, a), ofB = spheresOf(grains, b);
+    const double scale = ofB[0].radius / ofA[0].radius, near = 1e-9 * ofB[0].radius;  // m
+    const auto isNear = [](double one, double other) {
+        return std::abs(one - other) <= 1e-9 * std::abs(other);
+    };
+    const auto momentsOf = [&](std::size_t k) { return dry.empty() ? bodies[k].inertia : dry[k].inertia; };
+    const double mass = dryMassOf(b) / dryMassOf(a), inertia = mass * scale * scale;
+    const Vector<double> one = momentsOf(a), two = momentsOf(b);
+    if (!isNear(inertia * one.x, two.x) || !isNear(inertia * one.y, two.y) || !isNear(inertia * one.z, two.z))
+        return false;
+    for (std::size_t k = 0; k < ofA.size(); ++k)
+        if (std::abs(scale * ofA[k].radius - ofB[k].radius) > near ||
+            norm(scale * frames[a].turn(ofA[k].arm) - frames[b].turn(ofB[k].arm)) > near)
+            return false;
+    return true;
+}
+
 const ContactsAround& RigidBodies::contactsAt(const ParticleStore& grains, std::size_t at) const {
-    if (!around[at]) around[at] = findContacts(grains, at);
+    if (around[at]) return *around[at];
+    const bool isKnown = lastFound < size() && around[lastFound] && haveOneShape(grains, lastFound, at);
+    around[at] = isKnown ? *around[lastFound] : findContacts(grains, at);
+    lastFound = at;
     return *around[at];
 }
 

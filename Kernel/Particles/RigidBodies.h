@@ -286,6 +286,11 @@ private:
     /// The body of the grain at each place; `none` for one in no body.
     [[nodiscard]] std::vector<std::uint32_t> bodiesAt(const ParticleStore& grains) const;
     [[nodiscard]] ContactsAround findContacts(const ParticleStore& grains, std::size_t at) const;
+    /// The spheres of a body without films, in its principal axes.
+    [[nodiscard]] std::vector<SphereOfBody> spheresOf(const ParticleStore& grains, std::size_t at) const;
+    /// Whether two bodies have one shape, whatever their sizes: to 1e-9, so that contactsAt() of one is that
+    /// of the other.
+    [[nodiscard]] bool haveOneShape(const ParticleStore& grains, std::size_t a, std::size_t b) const;
     /// kg: a body of one grain moves at a contact as a free sphere of this mass would.
     [[nodiscard]] double massAtContacts(const ParticleStore& grains, std::size_t at) const;
 
@@ -294,6 +299,7 @@ private:
     std::vector<double> volumes;                                // m^3, of each
     std::vector<Quaternion> frames;                             // of each without films: see add()
     mutable std::vector<std::optional<ContactsAround>> around;  // of each, once they were asked for
+    mutable std::size_t lastFound = 0;                          // a place in `around`
     std::vector<HeldBody> held;                                 // of each; empty while none is held
     std::vector<DryBody> dry;                                   // of each; empty while films have no mass
     std::vector<Vector<double>> dryArms;  // m, of each of `members`, in its dry body; empty as `dry`
