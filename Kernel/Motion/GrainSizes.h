@@ -46,7 +46,8 @@ struct SizeRange {
 };
 
 /// The sizes of the grains of each species: of all, of those that are free to move, and of those that are
-/// held along all axes. A block's count as free spheres of the mass that its contacts move.
+/// held along all axes. A block's count as free spheres of a mass that is less than its contacts move; the
+/// stability limit takes bodies as such (BodySizes.h).
 struct GrainSizes {
     std::size_t count = 0;  // of grains
     std::vector<SizeRange> all, free, held;

@@ -26,7 +26,7 @@ struct SphereOfBody {
 /// squares of n.(v + w x a) and of the parts across n, with the arm a of the place; its largest eigenvalue
 /// over mass and moments is exact. Where spheres are so dense that one grain touches several at an overlap of
 /// 5 %, all of these count. A sphere whose surface is exposed anywhere has one contact at least. A plane
-/// touches those spheres that are as far out as the farthest, less 5 % of the radius and a tenth of the way
+/// touches those spheres that are as far out as the farthest, less 5 % of the radius and 3 % of the way
 /// to them, for planes between those that are looked at.
 struct ContactsAround {
     double normal = 1, sliding = 2.5;  // of shift and spin together
