@@ -71,7 +71,7 @@ std::vector<Side> partners(const ContactLaws& species, const GrainSizes& grains,
                                           : std::max(light.largest, heavy.largest);
                 largest.radius = std::max(largest.radius, own);
                 largest.mass = std::max(largest.mass, heavy.mass);
-                largest.spheres = std::max(largest.spheres, body.around.mean);
+                largest.spheres = std::max(largest.spheres, body.around.facing());
                 const double widest = light.largest;
                 largest.finer = std::max(largest.finer, body.around.finer / widest);
                 largest.finest = std::max(largest.finest, body.around.finest / (widest * widest));

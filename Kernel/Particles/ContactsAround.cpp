@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "Kernel/Math/EigenConversion.h"
@@ -42,6 +43,19 @@ std::vector<Eigen::Vector3d> directionsAround() {
                 const bool isNeighbour = twos == 0 && ones > 0, isBetween = twos == 1 && ones == 2;
                 if (isNeighbour || isBetween) all.push_back(Eigen::Vector3d(x, y, z).normalized());
             }
+    return all;
+}
+
+/// A thousand directions along a spiral (Fibonacci's lattice), each for the same part of a sphere: for
+/// spheres of which others leave bands and patches.
+std::vector<Eigen::Vector3d> manyDirections() {
+    constexpr int count = 1000;
+    const double turn = std::numbers::pi * (3 - std::sqrt(5.0));  // rad
+    std::vector<Eigen::Vector3d> all;
+    for (int k = 0; k < count; ++k) {
+        const double z = 1 - (2 * k + 1.0) / count, across = std::sqrt(1 - z * z);
+        all.emplace_back(across * std::cos(turn * k), across * std::sin(turn * k), z);
+    }
     return all;
 }
 
@@ -236,25 +250,31 @@ ContactsAround ContactsAround::roundedUp(double factor) const {
 
 ContactsAround contactsAround(std::span<const SphereOfBody> spheres, double mass,
                               const Vector<double>& moments, const Quaternion& frame) {
-    static const std::vector<Eigen::Vector3d> directions = directionsAround();
+    static const std::vector<Eigen::Vector3d> few = directionsAround(), many = manyDirections();
     const Neighbourhoods near(spheres);
-    const double perDirection = 1 / static_cast<double>(directions.size());
     Sums sums(mass, moments);
-    double touched = 0, places = 0, most = 1, rims = 0;  // rims: m^2
-    double surface = 0, overRadius = 0, overSquare = 0;  // m^2 of the surface, and m and 1 over r and r^2
-    double widest = 0;                                   // m
+    double touched = 0, squares = 0, most = 1, rims = 0;  // rims: m^2
+    double surface = 0, overRadius = 0, overSquare = 0;   // m^2 of the surface, and m and 1 over r and r^2
+    double widest = 0;                                    // m
     std::vector<std::pair<Eigen::Vector3d, double>> exposed;
     for (std::uint32_t k = 0; k < spheres.size(); ++k) {
         const auto& [arm, radius] = spheres[k];
-        exposed.clear();
-        for (const Eigen::Vector3d& direction : directions) {
-            const Vector<double> normal = frame.turnBack(toVector(direction));
-            if (!near.isExposed(k, arm + radius * normal)) continue;
-            const double count = near.touchedAt(k, normal);
-            exposed.emplace_back(toEigen(normal), count);
-            touched += count, places += 1, most = std::max(most, count);
+        const auto look = [&, &arm = arm, &radius = radius](const std::vector<Eigen::Vector3d>& directions) {
+            exposed.clear();
+            for (const Eigen::Vector3d& direction : directions) {
+                const Vector<double> normal = frame.turnBack(toVector(direction));
+                if (near.isExposed(k, arm + radius * normal))
+                    exposed.emplace_back(toEigen(normal), near.touchedAt(k, normal));
+            }
+            return 1 / static_cast<double>(directions.size());
+        };
+        double perDirection = look(few);
+        if (exposed.size() < few.size()) perDirection = look(many);
+        for (const auto& [direction, count] : exposed) {
+            touched += perDirection * count, squares += perDirection * count * count;
+            most = std::max(most, count);
         }
-        const double open = static_cast<double>(exposed.size()) * radius * radius;
+        const double open = perDirection * static_cast<double>(exposed.size()) * radius * radius;
         surface += open, overRadius += open / radius, overSquare += open / (radius * radius);
         widest = std::max(widest, radius);
         // Of twelve contacts a direction has a share; all that are exposed have one at least together.
@@ -272,11 +292,11 @@ ContactsAround contactsAround(std::span<const SphereOfBody> spheres, double mass
                          .sliding = std::max(sums.ofSliding(), most * one / acrossAll),
                          .spin = sums.ofSpin(),
                          .turning = mass * rims / smallest,
-                         .mean = places > 0 ? touched / places : 1,
+                         .mean = touched > 0 ? squares / touched : 1,
                          .most = most,
                          .finer = surface > 0 ? widest * overRadius / surface : 1,
                          .finest = surface > 0 ? widest * widest * overSquare / surface : 1};
-    PlaneContacts(spheres, mass, moments).findMost(directions, frame, found);
+    PlaneContacts(spheres, mass, moments).findMost(few, frame, found);
     return found.roundedUp();
 }
 

@@ -530,6 +530,34 @@ TEST(ClumpMotion, aRodBetweenPlatesIsStableBelowItsLimitAndNotFarAbove) {
     EXPECT_GT(growth(1.25, 12), 1e3);
 }
 
+// A wheel of 180 spheres on grains of their size, with dashpots of a restitution. It moves at each contact
+// with its own mass, and its springs are those of as many spheres. A plane at its side touches 60 at once,
+// with dashpots for 180 masses: sqrt(180) 60 / 180 = 4.5 times what the four contacts along a direction have
+// of a grain, on both sides of the sum. It was 1/25 of the limit of the grains, as each sphere of the wheel
+// counted with these dashpots by itself.
+TEST(ClumpMotion, aWheelOfManySpheresDoesNotBindTheStepOfTheGrains) {
+    constexpr double r = 1e-3;
+    Hertzian material;
+    material.setDensity(density);
+    material.setEffectiveElasticModulusAndRestitutionCoefficient(1e7, 0.5);
+    material.setEffectiveShearModulus(2e6);
+    material.setSlidingFrictionCoefficient(0.5);
+    std::vector<GrainMotion> grains;
+    std::vector<std::uint32_t> wheel;
+    for (std::uint32_t k = 0; k < 180; ++k) {
+        const double angle = 2 * std::numbers::pi * (k % 60) / 60, rim = 19.2 * r;
+        grains.push_back(
+            {.radius = r, .position = {rim * std::cos(angle), rim * std::sin(angle), 2.01 * r * (k / 60)}});
+        wheel.push_back(k);
+    }
+    for (int k = 0; k < 30; ++k) grains.push_back({.radius = r, .position = {0.1 + 3 * r * k, 0, 0}});
+    const std::vector<scenes::PlaneAt> floor{{{0, 0, -1}, {0, 0, -0.1}}};
+    FewGrains<Hertzian> free(material, grains, 1e-7, floor), joined(material, grains, 1e-7, floor);
+    joined.bodyHandler.join(wheel);
+    EXPECT_GT(joined.stabilityLimit(), 0.15 * free.stabilityLimit());
+    EXPECT_LT(joined.stabilityLimit(), 1.01 * free.stabilityLimit());
+}
+
 // The step of a body is that of its own mass, also where a small sphere of it is 1/64 of the large one's: it
 // was a fifth of that, because the small one's mass counted. Two of them, so that they may meet.
 TEST(ClumpMotion, aSmallSphereOnALargeOneDoesNotBindTheStep) {
