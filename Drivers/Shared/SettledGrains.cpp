@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "Drivers/Shared/GrainLattice.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Files/FileFault.h"
 #include "Kernel/Particles/GrainFile.h"
 #include "Kernel/Particles/GrainSums.h"
@@ -44,7 +45,17 @@ std::vector<GrainRow> looseGrains(const Box& box, std::size_t count, double radi
     return grains;
 }
 
+/// s, in which a stone falls from the highest grain to the floor.
+static double fallTime(const Settled& bed) {
+    double height = 0;  // m
+    for (const GrainRow& grain : bed.grains)
+        height = std::max(height, grain.position.z() + grain.radius - bed.box.lowest.z());
+    return std::sqrt(2 * height / 9.8);
+}
+
 Settled settle(Settled loose, int threads) {
+    // Beds rest after a few of these times. What never rests must end, too.
+    constexpr double mostFalls = 100;
     using Dry = Species<HertzianViscoelastic, Mindlin, NoAdhesion>;
     for (const auto& [modulus, step] : {std::pair{1e8, 1.5e-6}, std::pair{1e9, 5e-7}}) {
         BedMaterial material;
@@ -63,7 +74,13 @@ Settled settle(Settled loose, int threads) {
         // Grains fall from rest: before they can have fallen through a radius they would seem to be at rest
         // again.
         const auto first = static_cast<std::size_t>(std::sqrt(2 * 1e-3 / 9.8) / step);
+        const double longest = mostFalls * fallTime(loose);  // s
         do {
+            if (scene.getTime() > longest)
+                throw InputError(fmt::format(
+                    "settle: the {} grains are not at rest after {:.3g} s, {:.0f} times the time of a fall "
+                    "from the top of their box; a bed needs at least one grain, and grains that stay in it.",
+                    loose.grains.size(), scene.getTime(), mostFalls));
             scene.step();
         } while (scene.getNumberOfTimeSteps() < first || scene.getNumberOfTimeSteps() % 200 != 0 ||
                  !atRest());

@@ -28,7 +28,8 @@ std::vector<GrainRow> looseGrains(const Box& box, std::size_t count, double radi
                                   std::span<const GrainRow> there);
 
 /// Runs a box of loose grains until the kinetic energy of a grain is below a thousandth of what it would gain
-/// by falling through its radius, on average: first with soft grains, then with those of the bed.
+/// by falling through its radius, on average: first with soft grains, then with those of the bed. Throws
+/// InputError where they do not come to rest in a hundred times the time of a fall from the top.
 Settled settle(Settled loose, int threads);
 
 /// The grains kept in a file of the folder; where there is none, those that `make` makes, which are then

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/ContactList.h"
 #include "Kernel/Contacts/ContactMigration.h"
@@ -16,6 +17,12 @@
 #include "Kernel/Math/ExactSum.h"
 
 namespace pendular {
+
+void ContactSystem::throwWithoutLaws() {
+    throw InputError(
+        "ContactSystem: laws() needs contacts that are prepared, as initialise() of a scene does; before it, "
+        "call laws() of the scene.");
+}
 
 void ContactSystem::prepare(ContactLaws& contactLaws, const WallHandler& wallHandler, const PeriodicBox& box,
                             const SkinChoice& skinChoice, bool withLedger, GrainFilms* films) {
@@ -273,6 +280,7 @@ void ContactSystem::bringBackPlaced(const Grains& grains, std::span<const std::u
 }
 
 double ContactSystem::largestFilmContactGap() const {
+    if (!species) return 0;  // before prepare(), for filmReach()
     double largest = 0;
     const auto count = static_cast<int>(species->speciesCount());
     for (int a = 0; a < count; ++a)

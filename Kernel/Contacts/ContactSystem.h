@@ -193,7 +193,11 @@ public:
     [[nodiscard]] double liquidOfWall(std::size_t wall) const { return liquid.ofWall(wall); }
 
     [[nodiscard]] const ContactStore& store() const { return contacts; }
-    [[nodiscard]] const ContactLaws& laws() const { return *species; }
+    /// @throw InputError before prepare()
+    [[nodiscard]] const ContactLaws& laws() const {
+        if (!species) throwWithoutLaws();
+        return *species;
+    }
     [[nodiscard]] const PeriodicBox& periodicBox() const { return periodic; }
     /// Takes the box after the images have moved, in shear and strain.
     void setPeriodicBox(const PeriodicBox& box) { periodic = box; }
@@ -456,6 +460,8 @@ private:
     /// Finds the points at all walls, of which one may stand for another: what is one contact is left once.
     void findWallPoints(const Grains& grains, double step, bool handsOver = true);
     void sumWallForces(const Grains& grains);
+
+    [[noreturn]] static void throwWithoutLaws();
 
     ContactLaws* species = nullptr;
     const WallHandler* walls = nullptr;

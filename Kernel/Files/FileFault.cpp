@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <new>
+#include <stdexcept>
 #include <system_error>
 
 #include "Kernel/Base/InputError.h"
@@ -11,6 +13,8 @@ namespace pendular {
 namespace fs = std::filesystem;
 
 std::string sentenceOf(const std::exception& problem) {
+    if (dynamic_cast<const std::bad_alloc*>(&problem) || dynamic_cast<const std::length_error*>(&problem))
+        return "There is not enough memory for this; take fewer grains, or a larger machine.";
     const auto* const fault = dynamic_cast<const fs::filesystem_error*>(&problem);
     if (!fault) return problem.what();
     const std::string reason = fault->code().message(), file = fault->path1().string(),

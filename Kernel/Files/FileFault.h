@@ -8,7 +8,8 @@
 namespace pendular {
 
 /// What an exception says, for the user. One of the file system of the C++ library ("filesystem error: cannot
-/// rename: ... [a] [b]") becomes a sentence with the path and the reason.
+/// rename: ... [a] [b]") becomes a sentence with the path and the reason, and so does one of memory
+/// ("std::bad_alloc", "vector::reserve").
 std::string sentenceOf(const std::exception& problem);
 
 /// Gives a file another name, in the place of one that has it. Throws InputError, with both names and the

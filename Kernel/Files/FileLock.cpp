@@ -8,7 +8,11 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <thread>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/SilentRank.h"
@@ -25,11 +29,25 @@ int lock(int descriptor) {
     return 0;
 }
 
-/// " (process 123)", of a file that its owner has completed.
-std::string ownerIn(int descriptor) {
+/// The process that has the lock; 0 where its owner has not yet written it.
+pid_t ownerIn(int descriptor) {
     std::array<char, 16> text{};
-    if (pread(descriptor, text.data(), text.size() - 1, 0) <= 0) return {};
-    return fmt::format(" (process {})", text.data());
+    if (pread(descriptor, text.data(), text.size() - 1, 0) <= 0) return 0;
+    return static_cast<pid_t>(std::strtol(text.data(), nullptr, 10));
+}
+
+/// A process that reads a file for its owner (ReadingProcess) has a copy of the lock, and ends with it: where
+/// the owner has just been killed, that takes until the system gives it a processor.
+int lockAfterItsCopies(int descriptor) {
+    using namespace std::chrono_literals;
+    int problem = lock(descriptor);
+    for (auto waited = 0ms; problem == EWOULDBLOCK && waited < 5s; waited += 5ms) {
+        const pid_t owner = ownerIn(descriptor);
+        if (owner <= 0 || kill(owner, 0) == 0 || errno != ESRCH) break;
+        std::this_thread::sleep_for(5ms);
+        problem = lock(descriptor);
+    }
+    return problem;
 }
 
 }  // namespace
@@ -52,8 +70,9 @@ FileLock::FileLock(const std::filesystem::path& file, std::string_view subject, 
         if (descriptor < 0)
             throw InputError(
                 fmt::format("The file {} cannot be written: {}.", path.string(), std::strerror(errno)));
-        if (lock(descriptor) == EWOULDBLOCK) {
-            const std::string holder = ownerIn(descriptor);
+        if (lockAfterItsCopies(descriptor) == EWOULDBLOCK) {
+            const pid_t process = ownerIn(descriptor);
+            const std::string holder = process > 0 ? fmt::format(" (process {})", process) : "";
             close(descriptor);
             throw InputError(
                 fmt::format("{} in use by another run{}: wait for its end, or {}.", subject, holder, advice));
@@ -74,7 +93,10 @@ bool FileLock::isStillAtPath() const {
 
 FileLock::~FileLock() {
     if (descriptor < 0) return;
-    if (owner == getpid() && isStillAtPath()) unlink(path.c_str());
+    if (owner == getpid()) {
+        if (isStillAtPath()) unlink(path.c_str());
+        flock(descriptor, LOCK_UN);  // a process that reads a file may have a copy of the descriptor
+    }
     close(descriptor);
 }
 

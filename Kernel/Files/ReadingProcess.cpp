@@ -3,6 +3,7 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -76,6 +77,16 @@ bool isOfParent(int descriptor) {
            (S_ISREG(file.st_mode) && (fcntl(descriptor, F_GETFL) & O_ACCMODE) != O_RDONLY);
 }
 
+/// What a library prints of a fault ("free(): invalid pointer") is no sentence for the user. Reports of the
+/// sanitizers stay.
+void silence() {
+    if (!limitsAddresses) return;
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere < 0) return;
+    dup2(nowhere, STDOUT_FILENO);
+    dup2(nowhere, STDERR_FILENO);
+}
+
 void closeFilesOfParent(int own) {
     DIR* const folder = opendir("/proc/self/fd");
     if (!folder) return;
@@ -90,10 +101,18 @@ void closeFilesOfParent(int own) {
     for (const int descriptor : found) close(descriptor);
 }
 
+/// A child ends with its parent, however that ends: it has the parent's locks until it has closed its files.
+void endWith(pid_t parent) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(failed);  // it has just ended
+}
+
 /// All that the child does.
-[[noreturn]] void run(const ReadingProcess::Limits& limits, int socket,
+[[noreturn]] void run(const ReadingProcess::Limits& limits, pid_t parent, int socket,
                       const std::function<void(const ReadingProcess::Channel&)>& work) {
+    endWith(parent);
     takeDefaultSignals();
+    silence();
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_CPU, limits.seconds);
     ReadingProcess::allowMemory(limits.memory);
@@ -156,21 +175,23 @@ ReadingProcess::ReadingProcess(const Limits& most, const std::function<void(cons
     : limits(most) {
     std::array<int, 2> ends{};
     const bool isPair = socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) == 0;
+    const pid_t parent = getpid();
     child = isPair ? fork() : -1;
-    if (child == 0) run(limits, ends[1], work);
+    if (child == 0) run(limits, parent, ends[1], work);
     const int problem = errno;
     if (isPair) close(ends[1]);
     if (child < 0) {
         if (isPair) close(ends[0]);
         throw InputError(
-            fmt::format("A file of others is read in a process of its own, and there can be none: {}.",
-                        std::strerror(problem)));
+            fmt::format("The process that is to read a file cannot be started: {}.", std::strerror(problem)));
     }
     socket = ends[0];
     connection = Channel(socket);
-    const timeval silence{longestSilence, 0};
-    setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &silence, sizeof silence);
+    const timeval longest{longestSilence(), 0};
+    setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &longest, sizeof longest);
 }
+
+unsigned ReadingProcess::longestSilence() const { return std::max(shortestPatience, limits.seconds); }
 
 void ReadingProcess::closeChannel() {
     if (socket >= 0) close(socket);
@@ -197,7 +218,7 @@ const std::string& ReadingProcess::howItEnded() {
     do waited = waitpid(child, &status, 0);
     while (waited < 0 && errno == EINTR);
     child = -1;
-    if (isSilent) end = fmt::format("has not answered for {} s", longestSilence);
+    if (isSilent) end = fmt::format("has not answered for {} s", longestSilence());
     else if (waited < 0) end = "has ended";  // its status went to another part of this program
     else end = toText(status, limits);
     return end;

@@ -24,7 +24,7 @@ public:
     public:
         explicit Channel(int descriptor) : socket(descriptor) {}
 
-        /// False: the other process has ended, or, received from a child, was silent for longestSilence.
+        /// False: the other process has ended, or, received from a child, was silent for too long.
         [[nodiscard]] bool send(const void* bytes, std::size_t count) const;
         [[nodiscard]] bool receive(void* bytes, std::size_t count) const;
         /// A text with its length.
@@ -35,7 +35,6 @@ public:
     private:
         int socket;
     };
-    static constexpr int longestSilence = 120;  // s
 
     /// Starts the child. Throws InputError if the system allows no further process.
     /// @param work done in the child, which ends after it. It must take no lock that another thread of this
@@ -57,7 +56,11 @@ public:
     static void allowMemory(std::size_t bytes);
 
 private:
+    static constexpr unsigned shortestPatience = 120;  // s
+
     void closeChannel();
+    /// s, after which this program waits no longer for the child: not before it could have had its CPU time.
+    [[nodiscard]] unsigned longestSilence() const;
 
     Limits limits;
     int socket = -1;

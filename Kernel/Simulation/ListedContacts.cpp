@@ -14,7 +14,7 @@ void requireListedContacts(const Scene& scene, std::string_view call) {
     if (!areListed(scene))
         throw InputError(fmt::format(
             "Simulation: {} needs a scene that has begun; call initialise() before it, and not in "
-            "a function that initialise() calls, as that of a wall's motion.",
+            "a function that initialise() calls, as that of a wall's motion or of a part of the step.",
             call));
 }
 

@@ -75,10 +75,8 @@ int printCurrentException() {
         // Who reads the results has gone (PROGRAM | head): nobody is there to be told.
         if (problem.code() == std::error_code(EPIPE, std::generic_category())) return brokenPipe;
         tellAll(sentenceOf(problem));
-    } catch (const std::bad_alloc&) {
-        tellAll("There is not enough memory for this; take fewer grains, or a larger machine.");
     } catch (const std::exception& problem) {
-        tellAll(problem.what());
+        tellAll(sentenceOf(problem));
     } catch (...) {
         tellAll("of an unknown kind.");
     }

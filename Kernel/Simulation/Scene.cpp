@@ -9,6 +9,7 @@
 #include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/Ranks/ProgramRanks.h"
 #include "Kernel/Simulation/LastState.h"
+#include "Kernel/Simulation/ListedContacts.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneInside.h"
 #include "Kernel/Species/Field.h"
@@ -58,7 +59,10 @@ void Scene::setUp() {
     inside->setUp();
 }
 void Scene::advanceByStep(bool another) { inside->advanceByStep(another); }
-void Scene::visitAll(StateArchive& archive) { inside->visitAll(archive); }
+void Scene::visitAll(StateArchive& archive) {
+    if (archive.isWriting()) requireListedContacts(*this, "writeRestart()");
+    inside->visitAll(archive);
+}
 bool Scene::areGrainsOnRanks() const { return inside->isDistributed(); }
 bool Scene::isShared() const { return inside->sharing.has_value(); }
 void Scene::onFirstRank(const std::function<void()>& write) { inside->onFirstRank(write); }

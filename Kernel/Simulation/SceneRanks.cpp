@@ -50,14 +50,20 @@ static std::string_view nameOf(HeldContacts which) {
     return names[static_cast<std::size_t>(which)];
 }
 
+/// The numbers of those walls for which a condition holds.
+template <class Condition>
+static std::string listOfWalls(const WallHandler& walls, Condition&& isListed) {
+    std::string list;
+    for (const auto& [number, wall] : walls.present())
+        if (isListed(*wall))
+            fmt::format_to(std::back_inserter(list), "{}{}", list.empty() ? "" : ", ", number);
+    return list.empty() ? "empty" : list;
+}
+
 /// All ranks sum these forces together.
 static constexpr std::string_view listOfKept = "the list of walls whose forces are kept";
 static std::string wallsThatKeepForces(const WallHandler& walls) {
-    std::string list;
-    for (const auto& [number, wall] : walls.present())
-        if (wall->keepsForces())
-            fmt::format_to(std::back_inserter(list), "{}{}", list.empty() ? "" : ", ", number);
-    return list.empty() ? "empty" : list;
+    return listOfWalls(walls, [](const Wall& wall) { return wall.keepsForces(); });
 }
 
 /// What hooks can change at any time.
@@ -76,6 +82,8 @@ std::uint64_t Scene::Inside::hashOfStep() {
 
 void Scene::Inside::visitSettings(StateArchive& archive) {
     archive.group("species", [&] { laws().visitState(archive, speciesChanged); });
+    // Named before their states, which would be those of other walls where one is missing.
+    archive.same("the list of walls", listOfWalls(scene.wallHandler, [](const Wall&) { return true; }));
     archive.group("walls", [&] { scene.wallHandler.visitState(archive); });
     archive.group("parts", [&] { parts.compareSetUps(archive, context); });
     // These two may be set again in a run.

@@ -6,6 +6,7 @@
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Particles/MovingBodies.h"
+#include "Kernel/Simulation/ListedContacts.h"
 #include "Kernel/Simulation/SceneInside.h"
 #include "Kernel/Species/Field.h"
 
@@ -35,12 +36,12 @@ double Scene::shortestContactTime() {
 }
 
 double Scene::stableStepOfContacts() {
-    requireBegun("stableStepOfContacts()");
+    requireListedContacts(*this, "stableStepOfContacts()");
     return ContactBounds().find(contacts(), wallHandler, particleHandler.store(), scheme()).step;
 }
 
 StabilityAdvice Scene::stabilityAdvice() {
-    requireBegun("stabilityAdvice()");
+    requireListedContacts(*this, "stabilityAdvice()");
     contacts().ranks().requireAllGrains("advice on the stability and its figures");
     const ParticleStore& grains = particleHandler.store();
     const auto find = [&](const ContactOutlook& outlook) {

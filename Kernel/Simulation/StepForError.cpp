@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "Kernel/Base/FullStop.h"
+#include "Kernel/Base/Host.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Motion/SceneLimits.h"
@@ -87,11 +88,13 @@ public:
     explicit Work(std::size_t meetings) : most(mostOfMeeting * meetings) {}
     void addStep() {
         if (++count > most) throw IsTooMuch{};
+        if (count % stepsBetweenQuestions == 0) askForInterruption();
     }
     [[nodiscard]] std::size_t steps() const { return count; }
 
 private:
-    static constexpr std::size_t mostOfMeeting = 30'000'000;  // about a minute
+    static constexpr std::size_t mostOfMeeting = 30'000'000;    // about a minute
+    static constexpr std::size_t stepsBetweenQuestions = 1000;  // a millisecond or two
     std::size_t most, count = 0;
 };
 
@@ -460,6 +463,15 @@ bool keepsToError(const std::vector<Collisions>& collisions, StepForError& found
     return found.largest <= found.asked;
 }
 
+/// The collisions of which keepsToError() has found the largest error.
+const Collisions& worst(const std::vector<Collisions>& collisions, const StepForError& found) {
+    const auto at = std::ranges::find_if(collisions, [&](const Collisions& of) {
+        return of.pair().species1 == found.species1 && of.pair().species2 == found.species2 &&
+               of.pair().isAtWall() == found.atWall;
+    });
+    return at == collisions.end() ? collisions.front() : *at;
+}
+
 void chooseStep(Scene& scene, const std::vector<Meeting>& meetings, Work& work, StepForError& found) {
     std::vector<Collisions> collisions;
     for (const Meeting& meeting : meetings) collisions.emplace_back(scene, meeting, found.speed, work);
@@ -469,7 +481,7 @@ void chooseStep(Scene& scene, const std::vector<Meeting>& meetings, Work& work, 
     constexpr int mostShortenings = 50;  // a hundredth
     found.step = found.byCollisions;
     for (int k = 0; !keepsToError(collisions, found); ++k, found.step /= 1.1)
-        if (k == mostShortenings) collisions.front().refuseError(found.asked);
+        if (k == mostShortenings) worst(collisions, found).refuseError(found.asked);
 }
 
 }  // namespace

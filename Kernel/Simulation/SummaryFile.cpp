@@ -11,6 +11,17 @@
 
 namespace pendular {
 
+namespace {
+
+/// NaN where the text is no number.
+double numberIn(const std::string& text) {
+    double result = NAN;
+    parseNumber(text, result);
+    return result;
+}
+
+}  // namespace
+
 SummaryFile::SummaryFile(const std::filesystem::path& file) : path(file) {
     const InputFile input = loadTextFile("summary of a run", file);
     std::istringstream lines(input.text);
@@ -35,7 +46,7 @@ std::vector<std::string> SummaryFile::complaints() const {
     for (const char* finite : {"time", "kinetic energy", "largest speed"})
         if (!std::isfinite(number(finite))) found.push_back(fmt::format("its {} is not finite", finite));
     for (const Row& row : all)
-        if (row.unit == "J" && row.quantity != "kinetic energy" && !std::isfinite(number(row.quantity)))
+        if (row.unit == "J" && row.quantity != "kinetic energy" && !std::isfinite(numberIn(row.value)))
             found.push_back(fmt::format("its {} is not finite", row.quantity));
     if (isAboveLimit() && !limitIsAccepted())
         found.emplace_back("its time step is above the stability limit: the results mean nothing");
@@ -86,10 +97,6 @@ std::string SummaryFile::value(std::string_view quantity) const {
 }
 
 /// NaN where there is none.
-double SummaryFile::number(std::string_view quantity) const {
-    double result = NAN;
-    parseNumber(value(quantity), result);
-    return result;
-}
+double SummaryFile::number(std::string_view quantity) const { return numberIn(value(quantity)); }
 
 }  // namespace pendular

@@ -113,7 +113,9 @@ void WallHandler::changesAreKnown() {
 double WallHandler::moveTo(double time) {
     now = time;
     double farthest = 0;
-    for (const PresentWall& wall : existing) farthest = std::max(farthest, wall.object->moveTo(time));
+    // By index: a motion function that adds walls, or removes others, must not invalidate the loop.
+    for (std::size_t k = 0; k < existing.size(); ++k)
+        farthest = std::max(farthest, existing[k].object->moveTo(time));
     return farthest;
 }
 

@@ -58,7 +58,7 @@ inline std::string shortOptionsOf(const std::string& driver) {
         {"UserDefinedWall", "--end-time-s 0.05"},
         {"WetWallCollision", "--speeds-m/s 1"},
         {"WornDrum", "--end-time-s 0.02"},
-        {"WornPlates", "--number 1"}};
+        {"WornPlates", "--number 1 --speed-m/s 15"}};
     const auto found = options.find(driver);
     return found == options.end() ? "" : found->second;
 }

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <new>
+#include <vector>
 
 #include "Kernel/Files/WrittenBeside.h"
 #include "Kernel/State/RestartFile.h"
@@ -44,6 +46,9 @@ TEST(FileFault, isASentence) {
         thrownBy(
             [] { throw fs::filesystem_error("cannot", std::make_error_code(std::errc::permission_denied)); }),
         "", "Permission denied");
+    const std::string ofMemory = thrownBy([] { throw std::bad_alloc(); });
+    EXPECT_TRUE(isOneSentence(ofMemory) && contains(ofMemory, "not enough memory")) << ofMemory;
+    EXPECT_EQ(thrownBy([] { std::vector<double>().reserve(~std::size_t{0}); }), ofMemory);
     EXPECT_EQ(thrownBy([] { throw InputError("As it is."); }), "As it is.");
 }
 

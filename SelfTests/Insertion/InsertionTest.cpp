@@ -323,7 +323,9 @@ TEST(Insertion, isRefusedWhereItCannotBe) {
     refused(equalSizes(9 * d), box, Amount::grains(1), "does not fit the region; it must be at most 0.004 m");
     refused(equalSizes(d), BoxRegion({0, 0, -8 * d}, {8 * d, 8 * d, -d}), Amount::grains(1), "behind wall 0");
     refused(equalSizes(d), box, Amount::mass(1e-9), "must be one grain at least");
-    refused(equalSizes(d), box, Amount::mass(1e9), "it must be at most");
+    refused(equalSizes(d), box, Amount::mass(1e9), "of the region; a random start reaches 0.6");
+    // 0.5 of (4 mm)^3 is 3.2e-8 m^3, of grains of 100 nm (5.2e-22 m^3) some 6e13.
+    refused(equalSizes(1e-7), box, Amount::solidFraction(0.5), "grains; it must be at most");
     refused(equalSizes(2 * d), BoxRegion({0, 0, 0}, {2.2 * d, 2.2 * d, 11 * d}), Amount::solidFraction(0.58),
             "was not reached");
     const std::string noSpecies =

@@ -9,7 +9,7 @@ import sys
 import numpy as np
 
 import pendular
-from pendular._signature import signature
+from pendular._signature import Argument, signature
 
 KERNEL = pendular._kernel
 GLASS = dict(density=2500, young_modulus=5e6, poisson_ratio=0.25, restitution_coefficient=0.5, sliding_friction_coefficient=0.4)
@@ -24,7 +24,7 @@ def dry():
     scene = pendular.Scene()
     scene.glass = glass = scene.add_species("HertzianViscoelasticMindlin", **GLASS)
     scene.add_plane(glass, (0, 0, -1), (0, 0, 0), forces=True)
-    scene.add_mesh(glass, TRIANGLES)
+    scene.chosen = scene.add_mesh(glass, TRIANGLES)
     k = np.arange(5)
     scene.add_grains(glass, np.stack([0 * k, 0 * k, 0.99e-3 + 1.99e-3 * k + 2e-5 * (k == 4)], 1), 1e-3)
     scene.join([3, 4])
@@ -111,7 +111,7 @@ VALUES = {
     "around": 8, "rows": 3, "columns": 3, "steps": 1, "tries": 10, "interval": 1e-3, "set_evaporation.interval": 10, "k": 1, "m": 0, "cone_angle": 0.1,
     "largest_speed": 1.0, "temperature": 293.0, "poisson_ratio": 0.25, "follows_wall": None, "follows_fill": None, "mass_flow": None,
     "insert.mass": None, "insert_mixture.mass": None, "solid_fraction": None, "across": None, "fan_angle": None, "edge1": None, "edge2": None,
-    "with_flow": False, "progress": None, "until": 1e-6, "part": None, "where": lambda place: place[2] < 0.01, "threads": 1, "time": 1e-3,
+    "with_flow": False, "progress": None, "until": 1e-6, "run.until": None, "part": None, "where": lambda place: place[2] < 0.01, "threads": 1, "time": 1e-3,
     "_run_to.time": 2e-6, "file": "state.h5", "library": "none.so", "sentence": "s", "name": "other", "fields": {}, "vectors": {}, "drag_force.slip": 0.1,
     "insert.shape": None, "add_inlet.shape": None, "length": 1e-3,
 }
@@ -124,7 +124,7 @@ def selves(scene):
     made = {"Scene": scene, "Species": scene.glass, "Sizes": pendular.one_size(1e-3), "Shape": pendular.clump([[0, 0, 0, 1e-3]]),
             "Mixture": pendular.Mixture(), "Region": PLACE}
     made["Mixture"].add(scene.glass, made["Sizes"])
-    made |= {"Wall": scene.wall(0)} if scene.wall_count else {}
+    made |= {"Wall": getattr(scene, "chosen", None) or scene.wall(0)} if scene.wall_count else {}
     return made | ({"Fluid": scene.fluid} if hasattr(scene, "fluid") else {})
 
 
@@ -137,6 +137,7 @@ def value(function, argument, objects):
     return [own] if "List[" in argument.kind else own
 
 
+OF_OPERATORS = {"__eq__": (0,), "__exit__": (None, None, None), "__setattr__": ("mine", 1)}
 # What is not of a scene, or is for the package alone.
 LEFT_OUT = {"_pybind11_conduit_v1_", "_stop_all", "_set_log", "_set_explanation", "_fail_on_ranks", "stop"}
 
@@ -151,11 +152,21 @@ def members():
                     yield key, name, member
         elif callable(what) and not inspect.isclass(what) and key not in LEFT_OUT:
             yield None, key, what
+    for name, member in vars(pendular.Scene).items():  # what the package adds
+        if inspect.isfunction(member) or isinstance(member, property):
+            yield "Scene", name, member
+
+
+def arguments_of(member):
+    if inspect.isfunction(member):
+        return [Argument(one.name, str(one.annotation), None if one.default is one.empty else "given")
+                for one in inspect.signature(member).parameters.values()]
+    found = signature(member.__doc__)
+    return found.arguments if found else []
 
 
 def arguments(name, member, objects, takes_all):
-    found = signature(member.__doc__)
-    return {argument.name: value(name, argument, objects) for argument in (found.arguments if found else [])
+    return {argument.name: value(name, argument, objects) for argument in arguments_of(member)
             if argument.kind and argument.name not in ("self", "arg0") and (takes_all or argument.default is None)}
 
 
@@ -163,7 +174,7 @@ def one_call(of, name, member, takes_all=False):
     if isinstance(member, property):
         return lambda objects: getattr(objects[of], name)
     if name.startswith("__"):
-        return lambda objects: getattr(objects[of], name)(*[0] * (name == "__eq__"))
+        return lambda objects: getattr(objects[of], name)(*OF_OPERATORS.get(name, ()))
     return lambda objects: (getattr(objects[of], name) if of else member)(**arguments(name, member, objects, takes_all))
 
 
@@ -218,7 +229,7 @@ def asked(moment, objects, call):
 
 def unmade(objects, names):
     """The objects of these classes are made by __new__() alone."""
-    return {name: KERNEL.__dict__[name].__new__(KERNEL.__dict__[name]) if name in names else one for name, one in objects.items()}
+    return {name: getattr(pendular, name).__new__(getattr(pendular, name)) if name in names else one for name, one in objects.items()}
 
 
 def main(moment, first):

@@ -98,6 +98,8 @@ def test_damaged_files_are_refused():
             assert "\n" not in str(caught.value)
         with open(name, "wb") as file:
             file.write(good)
+    with pytest.raises(pendular.InputError, match="state.h5 is no list of frames"):
+        list(pendular.frames("state.h5"))
     frame = sorted(name for name in os.listdir(".") if name.startswith("run-fields-"))[0]
     os.remove(frame)
     with pytest.raises(pendular.InputError, match=f"There is no file {frame}"):

@@ -270,3 +270,18 @@ def test_a_scene_that_lives_to_the_end_of_the_interpreter():
             "scene.every_steps(1, lambda s: scene.time)\nscene.run(3e-3)\n")
     subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
     assert len(pendular.table("left-energy.csv")) >= 3
+
+
+def test_function_of_progress_may_go_on_with_the_run():
+    """Its last call is after the last step; while the scene steps it is refused."""
+    scene, calls = tower(), []
+
+    def more(time):
+        calls.append(time)
+        try:
+            scene.run(steps=1)
+        except (pendular.InputError, pendular.RunError):
+            pass
+
+    scene.run(steps=3, progress=more)
+    assert calls and scene.steps == 4

@@ -128,7 +128,7 @@ TEST(Disagreement, ofTheSetUpIsNamed) {
                    wall.set({0, 0, 1}, {0, 0, 1}), wall.setSpecies(box.speciesHandler.getObject(0));
                    box.wallHandler.copyAndAddObject(wall);
                }),
-               {where, "walls/count is "});
+               {where, "the list of walls is ", "on rank 0 and "});
     expectTold(sentenceOf([](Box& box) { box.heated->holdWall(0, 500); }),
                {where, "parts/heat/wall0/temperature is 400 K on rank 0 and 500 K on rank 1"});
     expectTold(sentenceOf([](Box& box) { box.wallHandler.getObject(2).keepForces(); }),
@@ -211,7 +211,7 @@ TEST(Disagreement, ofPartsOfTheRunIsNamed) {
         sentenceOf({}, {}, between([](Box& box) { box.particleHandler.getObject(5).setRadius(0.9e-3); })),
         {"the ranks do not agree: particle 5/radius is "});
     expectTold(sentenceOf({}, {}, between([](Box& box) { box.wallHandler.removeObject(0); })),
-               {"the ranks do not agree: walls/0"});
+               {"the ranks do not agree: the list of walls is 0, 1, ", " on rank 0 and 1, "});
     expectTold(sentenceOf({}, {}, between([](Box& box) { box.setTimeStep(0.9 * box.getTimeStep()); })),
                {"the ranks do not agree: "});
 }

@@ -39,6 +39,25 @@ TEST(FileLock, isOfOneOnly) {
     EXPECT_NE(refusal(take), "");
 }
 
+// As a process that reads a file for a run that is killed.
+TEST(FileLock, waitsForACopyOfAnOwnerThatIsGone) {
+    const TestFolder folder;
+    const auto file = folder.path() / ".lock", ready = folder.path() / "ready";
+    const Child owner(folder.path(), [&] {
+        const FileLock lock(file, "The folder is", "take another one");
+        if (fork() == 0) {
+            std::ofstream(ready).flush();
+            usleep(300000);
+            _exit(0);
+        }
+        pause();
+    });
+    ASSERT_TRUE(waitUntil([&] { return std::filesystem::exists(ready); }));
+    owner.send(SIGKILL);
+    EXPECT_EQ(owner.wait(), -SIGKILL);
+    EXPECT_EQ(refusal([&] { FileLock(file, "The folder is", "take another one"); }), "");
+}
+
 TEST(FileLock, ofWhatIsNoFileIsRefused) {
     const TestFolder folder;
     const auto pipe = folder.path() / "pipe";

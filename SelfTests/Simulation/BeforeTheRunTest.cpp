@@ -10,7 +10,9 @@
 #include <functional>
 #include <memory>
 #include <regex>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -32,6 +34,7 @@
 #include "Kernel/Particles/PeriodicBox.h"
 #include "Kernel/Simulation/BridgeAdvice.h"
 #include "Kernel/Simulation/ChosenTimeStep.h"
+#include "Kernel/Simulation/ListedContacts.h"
 #include "Kernel/Simulation/OverlapEstimate.h"
 #include "Kernel/Simulation/PendularState.h"
 #include "Kernel/Simulation/RunSummary.h"
@@ -40,6 +43,7 @@
 #include "Kernel/Simulation/SumsOverRanks.h"
 #include "Kernel/Simulation/SuperquadricSimulation.h"
 #include "Kernel/State/RestartFile.h"
+#include "Kernel/Step/StepPart.h"
 #include "Kernel/Step/SummaryRows.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
@@ -270,6 +274,9 @@ std::vector<std::pair<std::string, std::vector<std::pair<std::string, Call>>>> c
            }}}},
         {"Mercury/MercuryInsertion.h",
          {{"hasRoomFor", [](Scene& scene) { static_cast<void>(hasRoomFor(scene, SphericalParticle())); }}}},
+        {"Simulation/ListedContacts.h",
+         {{"requireListedContacts", [](Scene& scene) { requireListedContacts(scene, "a call"); }},
+          {"boxOfContacts", [](Scene& scene) { static_cast<void>(boxOfContacts(scene)); }}}},
         {"Simulation/Scene.h",
          {{"interactions", [](Scene& scene) { static_cast<void>(scene.interactions()); }},
           {"ownInteractions", [](Scene& scene) { static_cast<void>(scene.ownInteractions()); }},
@@ -317,6 +324,7 @@ std::vector<std::pair<std::string, std::vector<std::pair<std::string, Call>>>> c
                static_cast<void>(contacts.overlaps().largestOverlap());
                static_cast<void>(contacts.capillaryNumbers().largestNumber());
                static_cast<void>(contacts.liquidLedger(grains));
+               static_cast<void>(contacts.filmReach() + contacts.laws().overlapLimit.largest);
                contacts.forEachListed([](const Bucket&, std::uint32_t) {});
                contacts.forEachActing(grains, [](const Bucket&, std::uint32_t) {});
            }}}},
@@ -415,6 +423,51 @@ TEST(BeforeTheRun, fieldsOfGrainsArePeriodic) {
     const auto scene = touching(glass());
     scene->setPeriodic(0, -0.02, 0.02);
     EXPECT_EQ(stateOf(*scene, FieldContent::WithoutContacts).periodic.length.x, 0.04);
+}
+
+/// A part of the step that calls something when it begins.
+class Caller final : public StepPart {
+public:
+    explicit Caller(std::function<void()> toCall) : call(std::move(toCall)) {}
+    [[nodiscard]] std::string_view name() const override { return "caller"; }
+    void begin(StepContext& /*scene*/, bool /*isRestarted*/) override { call(); }
+    void compareSetUp(StateArchive& /*archive*/, StepContext& /*scene*/) override {}
+
+private:
+    std::function<void()> call;
+};
+
+// The scene counts as begun then, but its contacts have no laws yet.
+TEST(BeforeTheRun, partsOfTheStepBeginBeforeContactsAreListed) {
+    const std::vector<std::pair<std::string, Call>> early{
+        {"stateOf", [](Scene& scene) { static_cast<void>(stateOf(scene)); }},
+        {"stableStepOfContacts", [](Scene& scene) { static_cast<void>(scene.stableStepOfContacts()); }},
+        {"stabilityAdvice", [](Scene& scene) { static_cast<void>(scene.stabilityAdvice()); }},
+        {"writeRestart", [](Scene& scene) { scene.writeRestart(scene.restartFile()); }}};
+    for (const auto& [name, call] : early) {
+        const TestFolder folder = TestFolder::inMemory();
+        const std::string fault = faultOf([&, &call = call] {
+            const auto scene = touching(glass());
+            scene->setName(folder.name());
+            scene->addPart<Caller>([&] { call(*scene); });
+            const std::string said = refusal([&] { scene->initialise(); });
+            if (!contains(said, "needs a scene that has begun")) throw std::runtime_error("it says: " + said);
+        });
+        EXPECT_EQ(fault, "") << name;
+    }
+}
+
+TEST(BeforeTheRun, contactsHaveNoLaws) {
+    const auto scene = touching(glass());
+    EXPECT_TRUE(isOneSentence(refusal([&] { static_cast<void>(scene->contacts().laws()); })));
+    EXPECT_FALSE(scene->laws().shapes());
+    scene->initialise();
+    EXPECT_EQ(&scene->contacts().laws(), &scene->laws());
+}
+
+TEST(BeforeTheRun, filmsHaveNoReach) {
+    EXPECT_EQ(touching(glass())->contacts().filmReach(), 0);
+    EXPECT_EQ(touching(bridged())->contacts().filmReach(), 0);
 }
 
 /// A wall whose motion looks at the fields of its scene.

@@ -7,6 +7,7 @@
 #include <functional>
 #include <set>
 
+#include "Kernel/Base/Host.h"
 #include "Kernel/Species/Laws.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
@@ -431,6 +432,18 @@ TEST(StepForError, isForgottenWithItsStep) {
     EXPECT_FALSE(scene.getStepForError());
     scene.initialise();
     EXPECT_TRUE(contains(refusal([&] { scene.setStepFor(0.1, speed); }), "time step for an error"));
+}
+
+// As Ctrl-C in Python: collisions that creep take seconds.
+TEST(StepForError, canBeInterrupted) {
+    struct Interrupted {};
+    ManyGrains scene;
+    setInterruption([] { throw Interrupted{}; });
+    EXPECT_THROW(scene.setStepFor(0.1, speed), Interrupted);
+    setInterruption({});
+    EXPECT_FALSE(scene.getStepForError());
+    scene.setStepFor(0.1, speed);
+    EXPECT_TRUE(scene.getStepForError());
 }
 
 TEST(StepForError, saysWhatIsLost) {

@@ -104,7 +104,7 @@ TEST_F(SwappedFolder, showsNothingFromOutside) {
         while (!isOver || swaps < 10000) swaps += swap() ? 1 : 0;
     });
     int shown = 0, secret = 0;
-    for (int k = 0; k < 20000 || swaps < 10000; ++k) {
+    for (int k = 0; k < 8000 || swaps < 10000; ++k) {
         const Reply reply = api.answer(requests[static_cast<std::size_t>(k) % requests.size()]);
         if (reply.body.find("inside") != std::string::npos) ++shown;
         if (reply.body.find("secret") != std::string::npos) ++secret;

@@ -6,6 +6,7 @@ import os
 import pathlib
 import re
 import struct
+import time
 import zlib
 
 import pytest
@@ -98,6 +99,32 @@ def test_a_frame_that_claims_more_than_is_stored_takes_no_memory(serve, root):
     frame.write_bytes(content.replace(blocks_of_zeros(size), empty))
     server = serve()
     assert "has data of the wrong size" in refused(server, "/api/frame?id=claims/run&frame=0") and peak(server) < 100_000
+
+
+def test_a_field_whose_name_is_no_utf8(serve, root):
+    write_many_points(root / "few", 10)
+    frame = root / "few" / "run-particles-000000000.vtp"
+    content = frame.read_bytes()
+    row = re.search(rb"<DataArray [^\n]*radius_m[^\n]*\n", content)[0]
+    frame.write_bytes(content.replace(row, row + row.replace(b"radius_m", b"f\xe9_m")))
+    server = serve()
+    for path in ("row?id=few/run&frame=0&of=grains&row=0", "frame?id=few/run&frame=0"):
+        status, content, _ = server.ask(f"/api/{path}")
+        assert status == 200, content
+
+
+def test_a_summary_of_any_length_takes_no_memory(serve, root):
+    texts = {"short": "grains,1,\n", "long": "grains,1,\n" * 10**6, "many": "".join(f"{k},1,J\n" for k in range(9 * 10**4)) + "grains,2,\n"}
+    for name, rows in texts.items():
+        (root / name).mkdir()
+        (root / name / "run-summary.csv").write_text("quantity,value,unit\n" + rows)
+    server = serve()
+    assert server.get("run", id="short/run")["grains"] == 1
+    assert server.get("run", id="long/run")["rows"] == []
+    before = time.monotonic()
+    assert {run["id"]: run["grains"] for run in server.get("runs")["runs"]} == {"short/run": 1, "long/run": None, "many/run": 2}
+    assert time.monotonic() - before < 5  # as its rows, not as their square, which took 13 s of an idle machine
+    assert peak(server) < 100_000
 
 
 def shared(name):

@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "Kernel/Output/Hdf5Series.h"
 #include "Kernel/State/Hdf5File.h"
 #include "Tools/Python/Bindings.h"
 
@@ -50,10 +51,19 @@ std::vector<std::string> tableNames(const std::filesystem::path& path) {
     return withoutPython([&] { return Hdf5File(path, Hdf5File::Access::Read).names(); });
 }
 
+/// Time (s) and file of each frame of a list NAME.h5.
+std::vector<std::pair<double, std::filesystem::path>> frameList(const std::filesystem::path& list) {
+    std::vector<std::pair<double, std::filesystem::path>> frames;
+    for (auto& [time, file] : withoutPython([&] { return readHdf5Series(list); }))
+        frames.emplace_back(time, std::move(file));
+    return frames;
+}
+
 }  // namespace
 
 void bindResults(py::module_& module) {
     module.def("_read_tables", &readTables, py::arg("file"), py::arg("begin"));
+    module.def("_frame_list", &frameList, py::arg("file"));
     module.def("_table_names", &tableNames, py::arg("file"));
 }
 

@@ -323,8 +323,8 @@ void PythonScene::go(const std::function<void()>& part) {
         }
         std::rethrow_exception(reason);
     }
-    if (progressFunction) showProgress();
-    progressFunction = {};
+    // It may go on with the run, which has ended here.
+    if (const py::object progress = std::exchange(progressFunction, {})) progress(scene().getTime());
     if (isInterrupted && !raised) raised = std::make_exception_ptr(keyboardInterrupt());
     if (!raised) return tellEnd();
     if (keepsRestart && !scene().hasEnded() && views == 0) scene().writeRestart(scene().restartFile());

@@ -17,7 +17,7 @@ struct WallHandle : Handle {
     [[nodiscard]] Kind& as(std::string_view what) const {
         owner->requireThisThread(), owner->requireMayChange();
         Wall& wall = owner->scene().wallHandler.getObject(number);
-        if (auto* const found = dynamic_cast<Kind*>(&wall)) return *found;
+        if (auto* const found = dynamic_cast<Kind*>(&wall); found && !wall.isRemoved()) return *found;
         refuse(what, wall.isRemoved());
     }
     /// The same for what only looks at it, also from a function that may not change the scene.
@@ -25,7 +25,8 @@ struct WallHandle : Handle {
     [[nodiscard]] const Kind& seen(std::string_view what) const {
         owner->requireThisThread();
         const Wall& wall = owner->scene().wallHandler.getObject(number);
-        if (const auto* const found = dynamic_cast<const Kind*>(&wall)) return *found;
+        if (const auto* const found = dynamic_cast<const Kind*>(&wall); found && !wall.isRemoved())
+            return *found;
         refuse(what, wall.isRemoved());
     }
     [[nodiscard]] Wall& wall() const {

@@ -93,8 +93,7 @@ Reply Api::route(const Request& request) {
 
 Reply Api::change(const Request& request) {
     const Json wish = parseJson(request.body);
-    if (!wish.is_object())
-        return sentence(400, "The content is no JSON object, or has too many lists in each other.");
+    if (!wish.is_object()) return sentence(400, "The content is not a JSON object, or is nested too deeply.");
     if (request.path == "/api/start") return json({{"id", queue.start(wish)}});
     if (request.path == "/api/check") return queue.check(wish), json({{"told", "It can start."}});
     if (request.path == "/api/resume") return queue.resume(wish), json({{"told", "It goes on."}});

@@ -367,7 +367,7 @@ std::string describeRow(const FrameEntry& frame, bool ofContacts, std::size_t ro
             value.push_back(field.at(row * field.components + c));
         add(field.name, std::move(value));
     }
-    return Json{{"fields", all}}.dump();
+    return Json{{"fields", all}}.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace pendular::view

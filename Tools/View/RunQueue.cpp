@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Files/FileFault.h"
 #include "Kernel/Files/TextFile.h"
 #include "Kernel/Simulation/SummaryFile.h"
 #include "Tools/View/NameText.h"
@@ -123,7 +124,10 @@ std::string RunQueue::start(const Json& wish) {
     try {
         writeStart(*folder, driver, options);
         add({run, driver, options, std::move(words), lockTurn(*folder)});
-    } catch (const InputError&) {  // a full disk: the name is free again
+        const auto over = outcomes.find(run.id);
+        if (over != outcomes.end()) throw InputError(std::exchange(over->second.reason, ""));
+    } catch (...) {  // a full disk: the name is free again
+        outcomes.erase(run.id);
         folder->remove(startFile);
         runs.root().removeFolder(name);
         throw;
@@ -187,9 +191,11 @@ void RunQueue::resume(const Json& wish) {
     if (computes(id)) throw InputError("This run is under way.");
     refuseMore();
     HeldLock turn = lockTurn(*run->folder);
+    refuseLive(*run);
     {
+        HeldLock log;
+        if (run->folder->hasFile(logFile)) log = lockLog(*run->folder);
         const StartLocks free(*run);
-        if (run->folder->hasFile(logFile)) static_cast<void>(lockLog(*run->folder));
     }
     add({*run, driver, std::move(options), std::move(words), std::move(turn)});
 }
@@ -218,16 +224,16 @@ pid_t RunQueue::begin(const Job& job, const fs::path& program) {
     const OpenFolder& folder = *job.run.folder;
     const bool isFirst = !folder.hasFile(logFile);
     try {
-        HeldLock log;
+        refuseLive(job.run);
+        HeldLock log = lockLog(folder);
         {
             const StartLocks alone(job.run);
-            log = lockLog(folder);
             writeStart(folder, job.driver, job.options);
         }
         const pid_t process = startProcess(program, job.arguments, folder.descriptor(), log.file());
         log.leave();
         return process;
-    } catch (const InputError&) {
+    } catch (...) {
         if (isFirst) folder.remove(logFile);  // a run without one was never started
         throw;
     }
@@ -240,8 +246,8 @@ void RunQueue::startNext() {
         const pid_t process = begin(job, drivers.program(job.driver));
         job.turn = HeldLock();
         running.emplace(process, std::move(job));
-    } catch (const InputError& problem) {
-        outcomes[job.run.id] = {"failed", problem.what(), now()};
+    } catch (const std::exception& problem) {
+        outcomes[job.run.id] = {"failed", sentenceOf(problem), now()};
     }
 }
 

@@ -31,6 +31,7 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr std::uintmax_t mostTableBytes = 1 << 21, mostLogBytes = 1 << 14;
+constexpr std::uintmax_t mostSummaryBytes = 1 << 20;  // of some kB: the server itself has all of its rows
 
 /// The summary of a run, and the file of it, which it looks at again.
 struct OpenSummary {
@@ -38,10 +39,10 @@ struct OpenSummary {
     SummaryFile content;
 };
 
-/// The summary, if there is one that is whole.
+/// The summary, if there is one that is whole, and not too long for one.
 std::optional<OpenSummary> summaryOf(const OpenFolder& folder, const std::string& name) {
     auto file = folder.file(name);
-    if (!file) return {};
+    if (!file || file->size() > mostSummaryBytes) return {};
     try {
         SummaryFile content = file->readBy([](const fs::path& path) { return SummaryFile(path); });
         return OpenSummary{std::move(*file), std::move(content)};

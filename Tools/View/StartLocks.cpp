@@ -33,7 +33,8 @@ HeldLock lockFile(const OpenFolder& folder, const std::string& name, std::string
     folder.refuse(name, "is replaced again and again");
 }
 
-/// A sentence for what the table of locks shows; the locks themselves decide.
+}  // namespace
+
 void refuseLive(const RunFiles& run) {
     const LockedBy by(run, Locks());
     if (by.preparation != 0)
@@ -47,10 +48,7 @@ void refuseLive(const RunFiles& run) {
             fmt::format("This run, or another one in its folder, is under way{}.", processOf(by.folder)));
 }
 
-}  // namespace
-
 StartLocks::StartLocks(const RunFiles& run) {
-    refuseLive(run);
     const OpenFolder& in = *run.folder;
     byDescriptor(in.descriptor(), in.path(), [&](const std::filesystem::path& at) {
         constexpr std::string_view advice = "stop it";

@@ -11,12 +11,17 @@ namespace pendular::view {
 /// In the folder of a driver, while it runs (Drivers/Shared/CommandLine.cpp).
 inline const std::string folderLock = ".pendular-lock";
 
+/// Throws InputError, with a sentence that says what is under way, where the table of locks shows that a
+/// driver computes the run. The locks themselves decide.
+void refuseLive(const RunFiles& run);
+
 /// The locks that a driver takes when it starts: that of its folder, of its preparation (the run that makes
 /// its first grains) and of the run. Who has all of them may write what the run is started with. They are to
-/// be gone when the driver is started, which takes them itself.
+/// be gone when the driver is started, which takes them itself. Who takes them has the lock of the log
+/// before: a driver that another server has just started would find them taken, and end.
 class StartLocks {
 public:
-    /// Throws InputError, which says what is under way, where another process has one of them.
+    /// Throws InputError where another process has one of them.
     explicit StartLocks(const RunFiles& run);
 
 private:

@@ -15,11 +15,11 @@ Path = Union[str, "os.PathLike[str]"]
 Columns = Dict[str, np.ndarray]
 
 
-def _tables(file: Path, begin: str = "") -> Columns:
-    """By the kernel, in a process of its own: the HDF5 library itself crashes on some damaged files."""
+# HDF5 files are read by the kernel, in a process of its own: the library itself crashes on some damaged ones.
+def _existing(file: Path) -> str:
     if not os.path.isfile(file):
         raise _kernel.InputError(f"There is no file {os.fspath(file)}.")
-    return _kernel._read_tables(os.fspath(file), begin)
+    return os.fspath(file)
 
 
 def _numbers(numbers: np.ndarray) -> np.ndarray:
@@ -32,7 +32,8 @@ def _numbers(numbers: np.ndarray) -> np.ndarray:
 def _columns(file: str, part: str) -> Columns:
     """Those of a part of a frame."""
     begin = f"{part}/"
-    columns = {name[len(begin):]: _numbers(numbers) for name, numbers in _tables(file, begin).items()}
+    tables = _kernel._read_tables(_existing(file), begin)
+    columns = {name[len(begin):]: _numbers(table) for name, table in tables.items() if isinstance(table, np.ndarray)}
     if not columns:
         parts = sorted({name.split("/")[0] for name in _kernel._table_names(file)})
         raise _kernel.InputError(f"The frame {file} has no {part}; it has {', '.join(parts)}.")
@@ -45,11 +46,8 @@ def frames(file: Path, part: str = "particles") -> Iterator[Tuple[float, Columns
     file: its name; the frames are NAME-fields-STEP.h5 beside it. part: particles, contacts, walls or droplets; of files of
     write_fields(hdf5=True): fields. Raises InputError.
     """
-    index, beginning = _tables(file), os.path.splitext(os.fspath(file))[0]
-    if "step" not in index or "time_s" not in index:
-        raise _kernel.InputError(f"{os.fspath(file)} lists no frames.")
-    for time, step in zip(index["time_s"].ravel(), index["step"].ravel()):
-        yield float(time), _columns(f"{beginning}-{int(step):09}.h5", part)
+    for time, frame in _kernel._frame_list(_existing(file)):
+        yield time, _columns(os.fspath(frame), part)
 
 
 def table(file: Path) -> pandas.DataFrame:
@@ -66,7 +64,7 @@ def table(file: Path) -> pandas.DataFrame:
 
 def restart(file: Path) -> Columns:
     """All tables of a restart file, by their names: "particles/translation", ... (Kernel/Output/README.md lists them)."""
-    return _tables(file)
+    return _kernel._read_tables(_existing(file), "")
 
 
 def draw(scene: _kernel.Scene, color: Union[str, np.ndarray, None] = None, *, along: str = "y",
