@@ -138,11 +138,11 @@ public:
                                   double times) const {
         const ContactStiffness& s = contact.stiffness;
         const double unit = times / mass, turn = around.turning * squaredLeverOfRotation(contact.bodies);
-        const SpringAndDashpot turning = met.across * turn * s.rolling + met.along * turn * s.torsion;
-        return completed({.all = unit * (met.along * around.normal * s.normal +
-                                         met.across * around.sliding * s.sliding + turning),
-                          .spin = unit * (met.across * around.spin * s.sliding + turning)},
-                         contact, 4 * around.normal / mass);
+        const SpringAndDashpot turning = met.across * turn * s.rolling + met.along * turn * s.torsion,
+                               spin = unit * (met.across * around.spin * s.sliding + turning);
+        const SpringAndDashpot both =
+            unit * (met.along * around.normal * s.normal + met.across * around.sliding * s.sliding + turning);
+        return completed({.all = larger(both, spin), .spin = spin}, contact, 4 * around.normal / mass);
     }
     /// Of a body at planes on so many sides.
     [[nodiscard]] BodyLoad ofBodyAtPlanes(const Contact& contact, const ContactsAround& around, double mass,

@@ -332,7 +332,7 @@ ContactsAround contactsAroundBlock(std::span<const SphereOfBody> corners, double
 ContactsAround contactsAroundAs(double massAtContacts, double mass) {
     const double share = mass / massAtContacts;
     return ContactsAround{.normal = share,
-                          .sliding = 2.5 * share,
+                          .sliding = share,
                           .spin = 2.5 * share,
                           .turning = 2.5 * share,
                           .wallNormal = share,

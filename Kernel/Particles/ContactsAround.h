@@ -30,7 +30,7 @@ struct SphereOfBody {
 /// touches those spheres that are as far out as the farthest, less 5 % of the radius and 3 % of the way
 /// to them, for planes between those that are looked at.
 struct ContactsAround {
-    double normal = 1, sliding = 2.5;  // of shift and spin together
+    double normal = 1, sliding = 1;  // of shift and spin together, or of shift where spin is more
     double spin = 2.5, turning = 2.5;
     // Spheres of the body that a grain on it touches at once; the mean is that of all contacts.
     double mean = 1, most = 1;
@@ -65,7 +65,8 @@ struct ContactsAround {
 /// @param corners its corners, spheres with the radius of its edges
 [[nodiscard]] ContactsAround contactsAroundBlock(std::span<const SphereOfBody> corners, double mass,
                                                  const Vector<double>& moments);
-/// Of a body that moves at each of its contacts as a free solid sphere of another mass (kg) would.
+/// Of a body that moves at each of its contacts as a free solid sphere of another mass (kg) would, whose
+/// shifts and spins are apart.
 [[nodiscard]] ContactsAround contactsAroundAs(double massAtContacts, double mass);
 
 }  // namespace pendular
