@@ -533,8 +533,8 @@ TEST(ClumpMotion, aRodBetweenPlatesIsStableBelowItsLimitAndNotFarAbove) {
 // A wheel of 180 spheres on grains of their size, with dashpots of a restitution. It moves at each contact
 // with its own mass, and its springs are those of as many spheres. A plane at its side touches 60 at once,
 // with dashpots for 180 masses: sqrt(180) 60 / 180 = 4.5 times what the four contacts along a direction have
-// of a grain, on both sides of the sum. It was 1/25 of the limit of the grains, as each sphere of the wheel
-// counted with these dashpots by itself.
+// of a grain, on both sides of the sum. It was less than a tenth of the limit of the grains, as each sphere
+// of the wheel counted with these dashpots by itself.
 TEST(ClumpMotion, aWheelOfManySpheresDoesNotBindTheStepOfTheGrains) {
     constexpr double r = 1e-3;
     Hertzian material;
