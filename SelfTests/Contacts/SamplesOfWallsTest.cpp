@@ -55,7 +55,8 @@ TEST(SamplesOfWalls, takeMemoryOfContactsWithWallsOnly) {
     Lattice none(false), worn(true), whole(true, true);
     const std::size_t record = sizeof(EnergyRecord), atWall = Lattice::side * Lattice::side;
     const std::size_t more = worn.bytes() - none.bytes();
-    // One for each contact with the plate at least; those of pairs would be five times as many as this at least.
+    // One for each contact with the plate at least; those of pairs would be five times as many as this at
+    // least.
     EXPECT_GE(more, atWall * record);
     EXPECT_LT(more, Lattice::pairs * record / 5);
     EXPECT_GE(whole.bytes() - none.bytes(), Lattice::pairs * record);
