@@ -1,11 +1,16 @@
 /// Wet grains between rough walls that shear them under a pressure: friction and solid fraction over the
 /// reduced pressure P* = P d / (pi gamma). Khamseh, Roux and Chevoir, Phys. Rev. E 92 (2015) 022201.
 
+#include <fmt/format.h>
+
 #include <array>
+#include <string_view>
 #include <utility>
 
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/GrainLattice.h"
+#include "Kernel/Base/FullStop.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/MercuryNames.h"
 #include "Kernel/Output/RunTable.h"
 
@@ -140,8 +145,22 @@ int main(int argc, char** argv) {
              "",
              &o.stiffness,
              {10, 1e6},
-             "of a contact, over (force of a bridge + pressure x diameter^2) / diameter"},
+             "of a contact, over (force of a bridge + pressure x diameter^2) / diameter: a mean contact "
+             "overlaps "
+             "by the diameter over it; below 100 the largest overlaps may end the run"},
             {"seed", "", &o.seed, {0, 1e9}, "of the grains' places at the start"},
             {"strain", "", &o.strain, {0.1, 1e4}, "of the run"}}};
-    return runDriver(driver, argc, argv, [&] { WetPlaneShear(o).solve(); });
+    return runDriver(driver, argc, argv, [&] {
+        try {
+            WetPlaneShear(o).solve();
+        } catch (const RunError& error) {
+            // Of what the sentence of too deep an overlap says to take, only one is an option of this
+            // program.
+            if (std::string_view(error.what()).find(" overlap by ") == std::string_view::npos) throw;
+            throw RunError(fmt::format(
+                "{}: give this program a larger --stiffness than {:g}, 100 or more (1000 if it is "
+                "not given).",
+                withoutFullStop(error.what()), o.stiffness));
+        }
+    });
 }

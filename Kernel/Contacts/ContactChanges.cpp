@@ -208,7 +208,7 @@ public:
         if (!isAwake) return;
         const std::size_t slot = contacts.slots[number] * std::size_t{Pack::lanes} + lane;
         contacts.memory.setNumbers(slot, numbers[lane].data());
-        if (!contacts.memory.energies.empty()) contacts.memory.energies[slot] = energies[lane];
+        if (!contacts.memory.energies.empty()) contacts.memory.energies.put(slot, energies[lane]);
     }
 
 private:

@@ -88,6 +88,7 @@ public:
     bool keepsForce = false;  // tangential springs follow the contact radius: KeepsForce
     OverlapLimit overlapLimit;
     double largestOverlapInRun = usualOverlapInRun;  // of the smaller radius; more ends a run
+    std::string_view overlapAdvice = usualOverlapAdvice;
 
     /// The laws of a pair alone: their own names, layout and flags, where a scene has species of several
     /// types.

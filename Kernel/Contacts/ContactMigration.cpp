@@ -45,7 +45,7 @@ void ContactMigration::add(Message& message, const RememberedContacts::Entry& en
     memory.getNumbers(slot, numbers.data());
     message.add(entry);
     for (const double number : numbers) message.add(number);
-    if (!memory.energies.empty()) message.add(memory.energies[slot]);
+    if (!memory.energies.empty()) message.add(std::as_const(memory.energies)[slot]);
 }
 
 void ContactMigration::unpack(Message& message) {
@@ -55,7 +55,8 @@ void ContactMigration::unpack(Message& message) {
         for (double& number : numbers) message.take(number);
         remembered.add(entry, numbers, memory);
         if (memory.energies.empty()) continue;
-        message.take(memory.energies[remembered.slotOf(static_cast<std::uint32_t>(remembered.size() - 1))]);
+        memory.energies.put(remembered.slotOf(static_cast<std::uint32_t>(remembered.size() - 1)),
+                            message.take<EnergyRecord>());
     }
 }
 

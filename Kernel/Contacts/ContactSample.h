@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "Kernel/Math/Vector.h"
 
 namespace pendular {
@@ -72,6 +76,55 @@ struct EnergyRecord {
         return last.elasticEnergy + last.sliding.stored() + last.rolling.stored() + last.torsion.stored() +
                adhesionWork;
     }
+};
+
+/// The records of contacts by slots of their memory. Where walls alone have samples those of blocks in which
+/// none has been written are not there, and are read as records of contacts that do not act.
+class EnergyRecords {
+public:
+    [[nodiscard]] bool empty() const { return !areKept; }
+    /// Records of so many slots that do not act, or none.
+    void reset(bool keep, std::size_t count) {
+        areKept = keep;
+        all.clear(), blocks.clear();
+        if (keep) resize(count);
+    }
+    /// From now on only blocks in which something is written take memory.
+    void makeSparse();
+    [[nodiscard]] bool areSparse() const { return sparse; }
+    void resize(std::size_t count) {
+        if (sparse) blocks.resize((count + lanes - 1) / lanes);
+        else all.resize(count);
+    }
+    void reserve(std::size_t count) {
+        if (sparse) blocks.reserve((count + lanes - 1) / lanes);
+        else all.reserve(count);
+    }
+    /// To write. Different blocks at the same time.
+    [[nodiscard]] EnergyRecord& operator[](std::size_t slot) {
+        if (!sparse) return all[slot];
+        std::vector<EnergyRecord>& block = blocks[slot / lanes];
+        if (block.empty()) block.resize(lanes);
+        return block[slot % lanes];
+    }
+    [[nodiscard]] const EnergyRecord& operator[](std::size_t slot) const {
+        static constexpr EnergyRecord none{};
+        if (!sparse) return all[slot];
+        const std::vector<EnergyRecord>& block = blocks[slot / lanes];
+        return block.empty() ? none : block[slot % lanes];
+    }
+    /// The same as (*this)[slot] = record, but a record that does not act takes no memory.
+    void put(std::size_t slot, const EnergyRecord& record);
+    /// Brings them to other places. @param origins of each new slot the old one, or `nothing`
+    void rearrangeSparse(const std::vector<std::uint32_t>& origins, std::uint32_t nothing, int threads);
+    [[nodiscard]] std::size_t bytes() const;
+
+private:
+    static constexpr std::size_t lanes = 8;
+
+    bool areKept = false, sparse = false;
+    std::vector<EnergyRecord> all;                  // unless they are sparse
+    std::vector<std::vector<EnergyRecord>> blocks;  // else; empty where nothing was written
 };
 
 }  // namespace pendular

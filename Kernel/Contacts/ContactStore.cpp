@@ -1,5 +1,7 @@
 #include "Kernel/Contacts/ContactStore.h"
 
+#include <utility>
+
 #include "Kernel/Contacts/Rearrangement.h"
 
 namespace pendular {
@@ -27,8 +29,8 @@ double ContactMemory::clear(std::size_t slot) {
     if (!layout.hasTorque) forces[slot] = {};
     if (layout.hasContactTorque) torques[slot] = {};
     if (energies.empty()) return 0;
-    const double stored = energies[slot].stored();
-    energies[slot] = {};
+    const double stored = std::as_const(energies)[slot].stored();
+    energies.put(slot, {});
     return stored;
 }
 
@@ -60,6 +62,8 @@ void ContactMemory::setNumbers(std::size_t slot, const double* from) {
 
 void ContactMemory::rearrange(std::vector<std::uint32_t> origins, std::vector<std::uint32_t> blocks,
                               int threads) {
+    if (energies.areSparse() && !energies.empty())
+        energies.rearrangeSparse(origins, Rearrangement::nothing, threads);
     const Rearrangement order(std::move(origins), slotCount());
     makeRoom(order.places() / Pack::lanes);
     resize(order.places() / Pack::lanes);
@@ -81,7 +85,7 @@ void ContactMemory::rearrange(std::vector<std::uint32_t> origins, std::vector<st
                 [&](std::uint32_t slot, const ContactNumbers& numbers) { each->set(slot, numbers.data()); });
     rearrangeRecords(forces);
     rearrangeRecords(torques);
-    rearrangeRecords(energies);
+    if (!energies.areSparse()) rearrangeRecords(energies);
     for (const std::uint32_t slot : order.emptyPlaces()) clear(slot);
     resize(blocks.size());
     std::ranges::copy(blocks, blockOf.begin());

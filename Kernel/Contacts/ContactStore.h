@@ -148,7 +148,7 @@ public:
     RecordColumns records;               // of laws with friction
     std::vector<ForceRecord> forces;     // of laws without
     std::vector<TorqueRecord> torques;   // empty unless the friction law has a torque of its own
-    std::vector<EnergyRecord> energies;  // empty unless there is an account of the energy
+    EnergyRecords energies;              // empty unless there is an account of the energy
     std::vector<std::uint32_t> blockOf;  // the block of contacts that has this block of memory
 
     /// The volume of a bridge whose liquid moves, and the one for which it was prepared, negative (or -0) if
@@ -173,8 +173,7 @@ public:
     /// Forgets everything, and has so many blocks of zeros besides block 0.
     void reset(bool withLedger, std::size_t blocks = 0) {
         resize(0);
-        if (withLedger) energies.assign(Pack::lanes, {});
-        else energies.clear();
+        energies.reset(withLedger, Pack::lanes);
         resize(1 + blocks);
     }
     /// Room for so many blocks and a few more, if there is not yet.
@@ -227,7 +226,8 @@ public:
     void setNumbers(std::size_t slot, const double* from);
     [[nodiscard]] std::size_t bytes() const {
         return bytesOf(history.columns, normalHistory.columns, interaction.columns, liquid.columns,
-                       named.columns, records.columns, forces, torques, energies, blockOf);
+                       named.columns, records.columns, forces, torques, blockOf) +
+               energies.bytes();
     }
 
 private:

@@ -306,7 +306,10 @@ public:
 
     /// Where an account is kept for the wear of walls alone, contacts with walls have samples, and others do
     /// not: of all walls, as a contact may go over from one to another.
-    void sampleWallsAlone() { samplesPairs = false; }
+    void sampleWallsAlone() {
+        samplesPairs = false;
+        contacts.memory.energies.makeSparse();
+    }
     /// The listed contacts with walls, in the order of identities: of the grain, the wall and its part.
     [[nodiscard]] std::vector<std::uint32_t> contactsAtWalls(const Grains& grains) const;
     /// Calls function(k, bucket, block, lane, record) for those of the contacts [begin, end) at walls that

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Walls/WallHandler.h"
@@ -181,7 +182,7 @@ void RememberedContacts::visitState(StateArchive& archive, ContactMemory& memory
         for (std::uint32_t k = 0; k < entries.size(); ++k) {
             slots[k] = Pack::lanes + k;
             memory.setNumbers(slots[k], &numbers[k * width]);
-            if (ledger) memory.energies[slots[k]] = energies[k];
+            if (ledger) memory.energies.put(slots[k], energies[k]);
         }
         return;
     }
@@ -192,7 +193,7 @@ void RememberedContacts::visitState(StateArchive& archive, ContactMemory& memory
             pairs.push_back(entries[k]);
             numbers.resize(numbers.size() + width);
             memory.getNumbers(slots[k], &numbers[numbers.size() - width]);
-            if (ledger) energies.push_back(memory.energies[slots[k]]);
+            if (ledger) energies.push_back(std::as_const(memory.energies)[slots[k]]);
         }
     archive.column<std::uint32_t>("pairs", pairs);
     archive.column<double>("numbers", numbers);

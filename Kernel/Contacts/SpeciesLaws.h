@@ -37,6 +37,7 @@ public:
         keepsForce = KeepsForce<typename S::Friction>;
         overlapLimit = pendular::overlapLimit<typename S::Mixed>();
         largestOverlapInRun = pendular::largestOverlapInRun<typename S::Mixed>();
+        overlapAdvice = pendular::overlapAdvice<typename S::Mixed>();
     }
 
     [[nodiscard]] std::size_t speciesCount() const override { return species.getSize(); }

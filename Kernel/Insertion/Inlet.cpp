@@ -58,12 +58,12 @@ void addClump(ParticleStore& one, const ClumpTemplate& shape, double density) {
         members.push_back({identity, toVector(principal.axes.conjugate() * ball.centre)});
     }
     one.bodies.add({.mass = mass.mass, .inertia = toVector(principal.moments), .largestFreeMass = largest},
-                   members, shape.getVolume());
+                   members, shape.getVolume(), {principal.axes.w(), toVector(Vec3D(principal.axes.vec()))});
 }
 
-/// What the stability limit counts with for all clumps or superquadrics of a kind, whatever their sizes.
+/// What the stability limit counts with for all clumps or superquadrics of a kind.
 /// @param density kg/m^3; @param turning of a superquadric's extreme contact
-BodyResponse responseOf(const BodyKind& kind, double density, double turning) {
+BodiesAlike alikeOf(const BodyKind& kind, double density, double turning) {
     ParticleStore one;
     if (kind.clump()) addClump(one, kind.clump()->getTemplate(), density);
     else {
@@ -73,11 +73,17 @@ BodyResponse responseOf(const BodyKind& kind, double density, double turning) {
             one.add({{0, 0, 0}, shape.boundingRadius(), {0, 0, 0}, 1 / body.mass}, {0, 0, 0}, 0), {0, 0, 0}};
         one.bodies.add(body, {&member, 1}, shape.volume());
     }
-    BodyResponse response = one.bodies.response(one);
-    // Those of the bodies that come differ by round-off, and must not be beyond it.
-    response.inertia *= 1 - 1e-9;
-    response.damping *= 1 + 1e-9;
-    return response;
+    // Those of the bodies that come may differ by the last digit, and must not be beyond it.
+    BodiesAlike alike{.species = static_cast<std::size_t>(kind.species()),
+                      .around = one.bodies.contactsAt(one, 0).roundedUp(1 + 2.0 / 1024)};
+    const auto sizeOf = [&](double diameter) {
+        const double radius = 0.5 * diameter;
+        return BodiesAlike::Size{sphereMass(radius, density), kind.smallestSphere(radius),
+                                 kind.largestSphere(radius)};
+    };
+    alike.add(sizeOf(kind.sizes.smallest()), sizeOf(kind.sizes.largest()));
+    alike.count = 2;  // any number may come
+    return alike;
 }
 
 }  // namespace
@@ -163,8 +169,8 @@ std::vector<InletHandler::Sizes> InletHandler::sizes(const GrainSpecies& species
             Sizes sizes{kind.smallestSphere(0.5 * kind.sizes.smallest()),
                         kind.largestSphere(0.5 * kind.sizes.largest()), kind.species(), std::nullopt};
             if (!kind.grain())
-                sizes.response = responseOf(kind, species.density(static_cast<std::size_t>(kind.species())),
-                                            kept.turnings[k]);
+                sizes.bodies = alikeOf(kind, species.density(static_cast<std::size_t>(kind.species())),
+                                       kept.turnings[k]);
             all.push_back(sizes);
         }
     return all;

@@ -10,6 +10,7 @@
 #include "Kernel/Insertion/BodyMixture.h"
 #include "Kernel/Insertion/Insertion.h"
 #include "Kernel/Insertion/RegionInFlow.h"
+#include "Kernel/Motion/BodySizes.h"
 
 namespace pendular {
 
@@ -122,7 +123,7 @@ public:
     struct Sizes {
         double smallest, largest;
         int species;
-        std::optional<BodyResponse> response;  // of clumps and superquadrics
+        std::optional<BodiesAlike> bodies;  // clumps and superquadrics, for the stability limit
     };
     [[nodiscard]] std::vector<Sizes> sizes(const GrainSpecies& species) const;
     /// Whether others than grains are to come.

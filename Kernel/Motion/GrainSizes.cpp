@@ -21,6 +21,12 @@ double radiusInLimit(const ParticleStore& grains, std::size_t place) {
                      (4 * std::numbers::pi));
 }
 
+/// Whether a grain is in no body, or is one by itself.
+bool isAlone(const ParticleStore& grains, std::size_t place) {
+    const std::uint32_t number = grains.bodies.bodyOf(grains.identity[place]);
+    return number == RigidBodies::none || grains.bodies.isSphere(grains, grains.bodies.find(number));
+}
+
 }  // namespace
 
 GrainSizes::GrainSizes(const ParticleStore& grains, std::size_t speciesCount, const AllRanks& ranks)
@@ -28,8 +34,9 @@ GrainSizes::GrainSizes(const ParticleStore& grains, std::size_t speciesCount, co
       all(speciesCount),
       free(speciesCount),
       held(speciesCount),
-      response(grains.bodies.response(grains)),
+      bodies(bodiesOf(grains, ranks)),
       hasBodies(!grains.bodies.empty()) {
+    if (hasBodies) alone.resize(speciesCount);
     for (std::size_t k = 0; k < grains.ownSize(); ++k) {
         if (grains.isGap(k)) continue;
         const TranslationRecord& grain = grains.translation[k];
@@ -44,6 +51,7 @@ GrainSizes::GrainSizes(const ParticleStore& grains, std::size_t speciesCount, co
                    std::max(highest.z, at.z + r)};
         if (grain.inverseMass > 0) {
             free[grains.species[k]].add(counted);
+            if (hasBodies && isAlone(grains, k)) alone[grains.species[k]].add(counted);
             continue;
         }
         held[grains.species[k]].add(counted);
@@ -55,15 +63,17 @@ GrainSizes::GrainSizes(const ParticleStore& grains, std::size_t speciesCount, co
 
 void GrainSizes::addOfOthers(const AllRanks& ranks) {
     count = ranks.sum(count);
-    for (std::vector<SizeRange>* const ranges : {&all, &free, &held}) {
+    // Where this rank has no body, all of its free grains are alone.
+    const bool isBodiless = !hasBodies;
+    hasBodies = ranks.any(hasBodies);
+    if (hasBodies && isBodiless) alone = free;
+    for (std::vector<SizeRange>* const ranges : {&all, &free, &held, &alone}) {
+        if (ranges == &alone && !hasBodies) continue;
         const std::vector<SizeRange> ofAll = ranks.gather(*ranges);
         const std::size_t species = ranges->size();
         ranges->assign(species, {});
         for (std::size_t k = 0; k < ofAll.size(); ++k) (*ranges)[k % species].add(ofAll[k]);
     }
-    response.inertia = ranks.smallest(response.inertia);
-    response.damping = ranks.largest(response.damping);
-    hasBodies = ranks.any(hasBodies);
     smallestOfBodies = ranks.smallest(smallestOfBodies);
     for (double* const low : {&lowest.x, &lowest.y, &lowest.z}) *low = ranks.smallest(*low);
     for (double* const high : {&highest.x, &highest.y, &highest.z}) *high = ranks.largest(*high);
@@ -79,7 +89,16 @@ void GrainSizes::countHeldAlong(const ParticleStore& grains, const AllRanks& ran
     if (!(least < infinity)) return;
     for (const SizeRange& range : free) largest = std::max(largest, range.largest);
     const double ratio = largest / least;
-    response.damping *= 1 + ratio * ratio * ratio;
+    heldDamping = 1 + ratio * ratio * ratio;
+}
+
+GrainSizes GrainSizes::withoutBodies() const {
+    if (!hasBodies) return *this;
+    GrainSizes others = *this;
+    others.free = others.all = alone;
+    for (std::size_t s = 0; s < held.size(); ++s) others.all[s].add(held[s]);
+    others.bodies.clear();
+    return others;
 }
 
 double GrainSizes::smallest() const {

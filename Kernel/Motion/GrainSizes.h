@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "Kernel/Motion/BodySizes.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Ranks/AllRanks.h"
 
@@ -45,13 +46,17 @@ struct SizeRange {
 };
 
 /// The sizes of the grains of each species: of all, of those that are free to move, and of those that are
-/// held along all axes. A block's count as free spheres of the mass that its contacts move.
+/// held along all axes. A block's count as free spheres of a mass that is less than its contacts move; the
+/// stability limit takes bodies as such (BodySizes.h).
 struct GrainSizes {
     std::size_t count = 0;  // of grains
     std::vector<SizeRange> all, free, held;
-    bool heldCarryWalls = true;  // whether contacts of held grains with walls that forces move are listed
-    BodyResponse response;       // of rigid bodies, which the stability limit counts with
+    bool heldCarryWalls = true;    // whether contacts of held grains with walls that forces move are listed
+    std::vector<SizeRange> alone;  // those of `free` that are in no body; empty without bodies
+    std::vector<BodiesAlike> bodies;  // that are free
     bool hasBodies = false;
+    /// Dashpots that follow from the mass are made for so many times it: held axes, see countHeldAlong().
+    double heldDamping = 1;
     Vector<double> lowest{infinity, infinity, infinity};  // m, of the box around all grains
     Vector<double> highest{-infinity, -infinity, -infinity};
 
@@ -62,6 +67,8 @@ struct GrainSizes {
     [[nodiscard]] std::span<const SizeRange> carriers() const {
         return heldCarryWalls ? std::span(held) : std::span<const SizeRange>();
     }
+    /// Without the grains of free rigid bodies.
+    [[nodiscard]] GrainSizes withoutBodies() const;
     /// m; infinite without grains
     [[nodiscard]] double smallest() const;
     /// The grains that a plane can touch, at most: a hexagonal layer of the smallest ones over the shadow of

@@ -10,6 +10,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Math/Halving.h"
+#include "Kernel/Motion/BodyLimits.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Particles/OwnSpecies.h"
 #include "Kernel/Particles/PeriodicBox.h"
@@ -190,11 +191,16 @@ static double limitWithShares(const ContactLaws& species, const GrainSizes& grai
         limit = std::min(limit, membraneLimit(species, grains, *wall.object, integrator));
         response.shift = response.shift + membraneRow(species, grains, *wall.object);
     }
-    forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
-        limit = std::min(limit,
-                         stabilityLimit(laws, bodies, mass, integrator, contacts, grains.response, response));
-    });
-    return limit;
+    const auto ofPair = [&](const PairLaws& laws, const Bodies& bodies, double mass) {
+        limit = std::min(
+            limit, stabilityLimit(laws, bodies, mass, integrator, contacts, grains.heldDamping, response));
+    };
+    if (!grains.hasBodies) {
+        forEachExtremePair(species, grains, walls, ofPair);
+        return limit;
+    }
+    forEachExtremePair(species, grains.withoutBodies(), walls, ofPair);
+    return std::min(limit, limitOfBodies(species, grains, walls, integrator, contacts, response));
 }
 
 double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
@@ -329,14 +335,14 @@ double limitOfMovedWalls(const ContactLaws& species, const GrainSizes& grains, c
 }
 
 double stepOfFastestPair(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls) {
+    const GrainSizes alone = grains.withoutBodies();
     double neighbours = infinity;  // s
-    forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
+    forEachExtremePair(species, alone, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
         neighbours =
             std::min(neighbours, implicitNeighboursLimit(contactStiffness(laws, bodies, mass), mass));
     });
-    return std::min(0.9 / std::numbers::pi * shortestHalfPeriod(species, grains, walls) *
-                        std::sqrt(grains.response.inertia),
-                    stabilityMargin * neighbours);
+    return std::min({0.9 / std::numbers::pi * shortestHalfPeriod(species, alone, walls),
+                     stabilityMargin * neighbours, stepOfFastestBodies(species, grains, walls)});
 }
 
 void checkScene(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,

@@ -103,8 +103,8 @@ void checkPistons(const ContactLaws& species, const GrainSizes& grains, const Wa
 double shortestHalfPeriod(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls);
 
 /// 0.9 over the highest frequency of two bodies of the scene (s), up to which figures of beds and flows were
-/// right to 1 to 2 % (Kernel/Motion/README.md); infinite without grains. Rigid bodies answer to a contact as
-/// a mass that is a share of a free sphere's.
+/// right to 1 to 2 % (Kernel/Motion/README.md); infinite without grains. Rigid bodies count with all of their
+/// contacts (BodyLimits.h).
 double stepOfFastestPair(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls);
 
 /// Throws InputError if a law cannot serve bodies of the scene, or if the time step (s) is above the

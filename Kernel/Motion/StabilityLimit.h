@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "Kernel/Motion/Integrator.h"
-#include "Kernel/Particles/RigidBodies.h"
 #include "Kernel/Species/Stiffness.h"
 #include "Kernel/Species/TimeStepAdvice.h"
 
@@ -140,30 +139,30 @@ struct WallResponse {
 /// contact has no others, and its tangential springs are implicit too: only its normal spring counts. (A pair
 /// stands 2 / omega, but from sqrt(2) / omega on, a slow opening may be taken for the end of the touch.)
 ///
-/// Grains of rigid bodies are moved by more contacts than their own, those of all grains of the body, and by
-/// their arms: as if they had a share of the mass. Their dashpots follow from the mass of the body, which is
-/// more than a free sphere's, and are not those of a pair alone: none of them is taken as implicit.
+/// Rigid bodies have limits of their own (BodyLimits.h).
 /// @param effectiveMass kg, m1 m2 / (m1 + m2)
 /// @param ofWalls n contacts of a piston, the mass M, share it, so that by the same inequality each counts
 /// for its grain with k (1/m + n/M), n k / M more than at a wall that is held; a wall that turns has its
 /// mobility where it is touched in place of 1/M
+/// @param heldDamping dashpots that follow from the mass are made for so many times it, where grains are held
+/// along some axes; none of them is taken as implicit then
 template <class Mixed>
 double stabilityLimit(const Mixed& laws, const Bodies& bodies, double effectiveMass,
                       const Integrator& integrator = integrators::predictedVelocityVerlet,
-                      std::size_t contacts = contactsInDensestBed, const BodyResponse& response = {},
+                      std::size_t contacts = contactsInDensestBed, double heldDamping = 1,
                       const WallResponse& ofWalls = {}) {
     const Neighbours met(contacts);
-    const ContactStiffness contact = contactStiffness(laws, bodies, response.damping * effectiveMass);
-    const double moved = response.inertia * effectiveMass, centre = 1 / moved;  // kg, 1/kg
+    const ContactStiffness contact = contactStiffness(laws, bodies, heldDamping * effectiveMass);
+    const double centre = 1 / effectiveMass;  // 1/kg
     SpringAndDashpot shift =
         centre * (met.along * contact.normal + met.across * contact.sliding) + ofWalls.shift;
-    const SpringAndDashpot spin = turningAmong(met, contact, bodies, moved) + ofWalls.spin;
+    const SpringAndDashpot spin = turningAmong(met, contact, bodies, effectiveMass) + ofWalls.spin;
 
     const SignChange signChange(integrator);
     if (!integrator.contacts.timesTouches)
         return stabilityMargin * std::min(signChange.limit(shift), signChange.limit(spin));
     const bool isImplicit = integrator.contacts.implicitForces;
-    const bool isOfPair = isImplicit && !response.isOfBodies();
+    const bool isOfPair = isImplicit && heldDamping == 1;
     const double neighbours = isImplicit ? implicitNeighboursLimit(contact, effectiveMass) : infinity;
     if (isOfPair && contacts == 1) {
         double squared = contact.normal.spring;

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -41,6 +42,7 @@ void RigidBodies::reorder(std::span<const std::uint32_t> order) {
         newBegins.push_back(static_cast<std::uint32_t>(orderOfMembers.size()));
     }
     permute(bodies, order), permute(volumes, order), permute(frames, order), permute(numbers, order);
+    permute(around, order);
     permute(held, order), permute(earlier, order), permute(dry, order);
     permute(members, orderOfMembers), permute(dryArms, orderOfMembers), permute(films, orderOfMembers);
     begins.swap(newBegins);
@@ -92,6 +94,7 @@ std::uint32_t RigidBodies::add(const RigidBody& body, std::span<const BodyMember
     bodies.push_back(body);
     volumes.push_back(volume);
     frames.push_back(frame);
+    around.emplace_back();
     numbers.push_back(next);
     members.insert(members.end(), grains.begin(), grains.end());
     forgetPlaces();
@@ -127,6 +130,7 @@ void RigidBodies::remove(std::size_t at) {
     bodies.erase(bodies.begin() + static_cast<std::ptrdiff_t>(at));
     volumes.erase(volumes.begin() + static_cast<std::ptrdiff_t>(at));
     frames.erase(frames.begin() + static_cast<std::ptrdiff_t>(at));
+    around.erase(around.begin() + static_cast<std::ptrdiff_t>(at));
     numbers.erase(numbers.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
@@ -233,36 +237,64 @@ double responseOfTurning(const Vector<double>& arm, const Vector<double>& inerti
 
 double RigidBodies::massAtContacts(const ParticleStore& grains, std::size_t at) const {
     const RigidBody& body = bodies[at];
-    if (isSphere(grains, at)) return body.mass;
-    double response = 0, rims = 0;  // 1/kg; m^2
-    for (const BodyMember& member : membersOf(at)) {
-        response += 1 / body.mass + responseOfTurning(member.arm, body.inertia);
-        const double radius = grains.translation[grains.place[member.grain]].radius;
-        rims += radius * radius;
-    }
-    const Vector<double>& moments = body.inertia;
-    return 1 / std::max(response, rims / (2.5 * std::min({moments.x, moments.y, moments.z})));
+    const double mass = dryMassOf(at),
+                 radius = grains.translation[grains.place[membersOf(at)[0].grain]].radius,
+                 sphere = 4.0 / 3 * std::numbers::pi * radius * radius * radius;  // m^3
+    const Vector<double>& moments = dry.empty() ? body.inertia : dry[at].inertia;
+    // Friction at the rim turns it with r^2 / I, where the limit takes 5/2 of a sphere over the mass.
+    const double easiest =
+        std::max(1 / mass, radius * radius / (2.5 * std::min({moments.x, moments.y, moments.z})));
+    if (!(volumes[at] < sphere * (1 - 1e-6))) return 1 / easiest;
+    // A superquadric, whose largestFreeMass says by how much contacts elsewhere turn it (SuperquadricBody.h).
+    return mass * (sphere / volumes[at]) / (body.largestFreeMass * easiest);
 }
 
-BodyResponse RigidBodies::response(const ParticleStore& grains) const {
-    BodyResponse most;
-    for (std::size_t k = 0; k < size(); ++k) {
-        if (isHeld(k)) continue;
-        const RigidBody& body = bodies[k];
-        if (body.largestFreeMass < 0) {  // its grains count with this mass: GrainSizes
-            most.damping = std::max(most.damping, body.mass / -body.largestFreeMass);
-            continue;
-        }
-        double largest = 0, smallest = infinity;  // m
-        for (const BodyMember& member : membersOf(k)) {
-            const double radius = grains.translation[grains.place[member.grain]].radius;
-            largest = std::max(largest, radius), smallest = std::min(smallest, radius);
-        }
-        const double ratio = smallest / largest;
-        most.inertia = std::min(most.inertia, massAtContacts(grains, k) / body.largestFreeMass);
-        most.damping = std::max(most.damping, body.mass / (ratio * ratio * ratio * body.largestFreeMass));
-    }
-    return most;
+std::vector<SphereOfBody> RigidBodies::spheresOf(const ParticleStore& grains, std::size_t at) const {
+    std::vector<SphereOfBody> spheres;
+    for (std::uint32_t m = begins[at]; m < begins[at + 1]; ++m)
+        spheres.push_back({dry.empty() ? members[m].arm : dryArms[m],
+                           grains.translation[grains.place[members[m].grain]].radius});
+    return spheres;
+}
+
+ContactsAround RigidBodies::findContacts(const ParticleStore& grains, std::size_t at) const {
+    if (isSphere(grains, at)) return {};
+    const double mass = dryMassOf(at);
+    const Vector<double>& moments = dry.empty() ? bodies[at].inertia : dry[at].inertia;
+    const std::vector<SphereOfBody> spheres = spheresOf(grains, at);
+    constexpr std::size_t firstCorner = 1, corners = 8;  // of Kernel/Superquadrics/Blocks.h
+    if (isBlock(at))
+        return contactsAroundBlock(std::span(spheres).subspan(firstCorner, corners), mass, moments);
+    if (spheres.size() == 1) return contactsAroundAs(massAtContacts(grains, at), mass);
+    return contactsAround(spheres, mass, moments, frames[at]);
+}
+
+bool RigidBodies::haveOneShape(const ParticleStore& grains, std::size_t a, std::size_t b) const {
+    if (begins[a + 1] - begins[a] != begins[b + 1] - begins[b] || isBlock(a) != isBlock(b)) return false;
+    if (begins[a + 1] - begins[a] == 1) return false;  // found at once
+    const std::vector<SphereOfBody> ofA = spheresOf(grains, a), ofB = spheresOf(grains, b);
+    const double scale = ofB[0].radius / ofA[0].radius, near = 1e-9 * ofB[0].radius;  // m
+    const auto isNear = [](double one, double other) {
+        return std::abs(one - other) <= 1e-9 * std::abs(other);
+    };
+    const auto momentsOf = [&](std::size_t k) { return dry.empty() ? bodies[k].inertia : dry[k].inertia; };
+    const double mass = dryMassOf(b) / dryMassOf(a), inertia = mass * scale * scale;
+    const Vector<double> one = momentsOf(a), two = momentsOf(b);
+    if (!isNear(inertia * one.x, two.x) || !isNear(inertia * one.y, two.y) || !isNear(inertia * one.z, two.z))
+        return false;
+    for (std::size_t k = 0; k < ofA.size(); ++k)
+        if (std::abs(scale * ofA[k].radius - ofB[k].radius) > near ||
+            norm(scale * frames[a].turn(ofA[k].arm) - frames[b].turn(ofB[k].arm)) > near)
+            return false;
+    return true;
+}
+
+const ContactsAround& RigidBodies::contactsAt(const ParticleStore& grains, std::size_t at) const {
+    if (around[at]) return *around[at];
+    const bool isKnown = lastFound < size() && around[lastFound] && haveOneShape(grains, lastFound, at);
+    around[at] = isKnown ? *around[lastFound] : findContacts(grains, at);
+    lastFound = at;
+    return *around[at];
 }
 
 /// Finds the volumes of all bodies, and the exposed shares of their grains, from the spheres.
@@ -319,6 +351,7 @@ void RigidBodies::visitState(StateArchive& archive, const ParticleStore& grains)
     for (std::size_t k = 0; k < arms.size(); ++k) members.push_back({grainsOf[k], arms[k], exposed[k]});
     requireWhole(archive, grains);
     if (!knowsShapes) measureAll(grains);
+    around.assign(bodies.size(), std::nullopt);
     bodyOfGrain.clear();
     forgetPlaces();
     for (std::size_t k = 0; k < size(); ++k)

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
 #include "Kernel/Math/Four.h"
 #include "Kernel/Math/Quaternion.h"
+#include "Kernel/Particles/ContactsAround.h"
 #include "Kernel/Particles/HeldAxes.h"
 #include "Kernel/State/StateArchive.h"
 
@@ -80,13 +82,6 @@ struct BodyMember {
 struct alignas(32) MemberInSpace {
     Vector<double> arm;   // m, as of BodyMember
     std::uint32_t place;  // of the grain
-};
-
-/// The effect of bodies on the stability limit of a scene of free spheres.
-struct BodyResponse {
-    double inertia = 1;  // a contact moves its grains as if they had this share of a free sphere's mass
-    double damping = 1;  // dashpots that follow from the mass are made for so many times it
-    [[nodiscard]] bool isOfBodies() const { return inertia != 1 || damping != 1; }
 };
 
 /// The rigid bodies of a scene. Their grains are in the store like all others, with the mass of their body,
@@ -203,7 +198,7 @@ public:
     void takeRow(Function&& take, bool isGhost) {
         std::uint32_t count = 0;
         take(numbers.emplace_back()), take(count), take(bodies.emplace_back()), take(volumes.emplace_back());
-        take(frames.emplace_back());
+        take(frames.emplace_back()), around.emplace_back();
         takeOne(held, take), takeOne(earlier, take), takeOne(dry, take);
         for (; count > 0; --count) {
             take(members.emplace_back());
@@ -237,13 +232,12 @@ public:
         return shares;
     }
 
-    /// The response of the body that moves most easily. All contacts of a body may act at once: with n
-    /// grains, n contact stiffnesses act on its approach (1/M each) and on its turning (the response of each
-    /// grain's arm), as on a mass 1 / (n/M + sum of these) a grain, which is compared with the free sphere
-    /// that its largest grain would be. Friction at the rims turns a body by the sum of r^2 / I, of the
-    /// smallest moment; the limit takes 5/2 over that mass for it (of a solid sphere), so the mass is at most
-    /// 2/5 I / sum of r^2. Dashpots are made for the mass of the body.
-    [[nodiscard]] BodyResponse response(const ParticleStore& grains) const;
+    /// By how much its contacts can move the body at a place, for the stability limit; found once for each
+    /// body. (Without the mass of films: with it, contacts move a body less.)
+    [[nodiscard]] const ContactsAround& contactsAt(const ParticleStore& grains, std::size_t at) const;
+    /// Whether the body at a place is a block (Kernel/Superquadrics): its grains are a core, eight corners
+    /// and twelve edges, and its largestFreeMass is negative.
+    [[nodiscard]] bool isBlock(std::size_t at) const { return bodies[at].largestFreeMass < 0; }
 
     /// Puts the grains of a body behind each other, at the first of them.
     /// @param places of all grains, in an order in space
@@ -291,15 +285,23 @@ private:
     void measureAll(const ParticleStore& grains);
     /// The body of the grain at each place; `none` for one in no body.
     [[nodiscard]] std::vector<std::uint32_t> bodiesAt(const ParticleStore& grains) const;
-    /// kg, a grain; see response()
+    [[nodiscard]] ContactsAround findContacts(const ParticleStore& grains, std::size_t at) const;
+    /// The spheres of a body without films, in its principal axes.
+    [[nodiscard]] std::vector<SphereOfBody> spheresOf(const ParticleStore& grains, std::size_t at) const;
+    /// Whether two bodies have one shape, whatever their sizes: to 1e-9, so that contactsAt() of one is that
+    /// of the other.
+    [[nodiscard]] bool haveOneShape(const ParticleStore& grains, std::size_t a, std::size_t b) const;
+    /// kg: a body of one grain moves at a contact as a free sphere of this mass would.
     [[nodiscard]] double massAtContacts(const ParticleStore& grains, std::size_t at) const;
 
     std::size_t ghosts = 0;  // the last bodies
     std::vector<RigidBody> bodies;
-    std::vector<double> volumes;          // m^3, of each
-    std::vector<Quaternion> frames;       // of each without films: see add()
-    std::vector<HeldBody> held;           // of each; empty while none is held
-    std::vector<DryBody> dry;             // of each; empty while films have no mass
+    std::vector<double> volumes;                                // m^3, of each
+    std::vector<Quaternion> frames;                             // of each without films: see add()
+    mutable std::vector<std::optional<ContactsAround>> around;  // of each, once they were asked for
+    mutable std::size_t lastFound = 0;                          // a place in `around`
+    std::vector<HeldBody> held;                                 // of each; empty while none is held
+    std::vector<DryBody> dry;                                   // of each; empty while films have no mass
     std::vector<Vector<double>> dryArms;  // m, of each of `members`, in its dry body; empty as `dry`
     std::vector<double> films;            // kg, of each of `members`; empty as `dry`
     std::vector<std::uint32_t> numbers;   // of each; they grow

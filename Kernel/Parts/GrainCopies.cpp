@@ -118,6 +118,20 @@ void GrainCopies::addMaser(const Vec3D& normal, double lowest, double highest, c
     add(std::move(passage));
 }
 
+/// How often a wedge is turned until it is back where it was. Throws InputError where wedges of this angle
+/// (rad) do not fill a turn: between the last and the first one there would be a gap, or they would overlap.
+static int turnsToFull(double angle) {
+    const double count = 2 * std::numbers::pi / angle, whole = std::round(count);
+    if (std::abs(count - whole) < 1e-9 * count) return static_cast<int>(whole);
+    constexpr double degree = std::numbers::pi / 180;
+    const double fewer = std::max(std::floor(count), 3.0);
+    throw InputError(
+        fmt::format("copies of grains: the angle between the faces is {:.10g} degrees, so that {:.6g} wedges "
+                    "fill a turn; "
+                    "it must be 360 degrees over a whole number: take {:.10g} or {:.10g} degrees.",
+                    angle / degree, count, 360 / (fewer + 1), 360 / fewer));
+}
+
 void GrainCopies::addTurn(const Vec3D& inwards, const Vec3D& outwards, const Vec3D& point) {
     requireUnit("first normal", inwards);
     requireUnit("second normal", outwards);
@@ -125,6 +139,7 @@ void GrainCopies::addTurn(const Vec3D& inwards, const Vec3D& outwards, const Vec
     const double angle = std::atan2(axis.norm(), inwards.dot(outwards));
     checkValue("copies of grains", "angle between the faces", angle, "rad",
                {1e-3, std::numbers::pi - 1e-3, true, true});
+    static_cast<void>(turnsToFull(angle));
     Passage passage{.outwards = {-inwards, outwards}, .points = {point, point}};
     passage.angle = angle;
     passage.turn = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
@@ -151,12 +166,6 @@ GrainCopies::Motion GrainCopies::motionOf(const Image& image, double time) const
     return motion;
 }
 
-/// How often a cell can be turned until it is back where it was; 0: never.
-static int turnsToFull(double angle) {
-    const double count = 2 * std::numbers::pi / angle;
-    return std::abs(count - std::round(count)) < 1e-9 * count ? static_cast<int>(std::round(count)) : 0;
-}
-
 std::vector<GrainCopies::Image> GrainCopies::imagesWithin(double reach) const {
     if (isFeeding()) {
         const Image below{.turns = {-1, 0, 0}}, above{.turns = {1, 0, 0}}, behind{.feeds = true};
@@ -169,8 +178,8 @@ std::vector<GrainCopies::Image> GrainCopies::imagesWithin(double reach) const {
         int least, most;
         if (passage.angle > 0) {
             const int full = turnsToFull(passage.angle);
-            most = full > 0 ? full / 2 : static_cast<int>(std::numbers::pi / passage.angle);
-            least = full > 0 ? most + 1 - full : -most;
+            most = full / 2;
+            least = most + 1 - full;
         } else {
             most = std::min(mostWidths, 1 + static_cast<int>(reach / passage.width));
             least = -most;

@@ -41,8 +41,9 @@ public:
     void addPeriod(const Vec3D& normal, double lowest, double highest, std::function<Vec3D(double)> shift,
                    std::function<Vec3D(double)> velocity);
     /// The cell is a wedge between two planes through a point (m), and is repeated by turning it about the
-    /// line in which they meet. @param inwards unit normal of the first plane, into the cell; @param outwards
-    /// that of the second one, out of it
+    /// line in which they meet. Wedges fill a turn: the angle is 360 degrees over a whole number from 3 on,
+    /// else it throws InputError. @param inwards unit normal of the first plane, into the cell; @param
+    /// outwards that of the second one, out of it
     void addTurn(const Vec3D& inwards, const Vec3D& outwards, const Vec3D& point);
     /// The grains that are between two planes when this is called, or when the run begins, are a box that
     /// feeds a flow: where one leaves at the higher plane, it comes again at the lower one, and a grain like

@@ -100,6 +100,10 @@ std::optional<std::string> HeatPart::objectionToSoftening(const ContactLaws& ofS
 
 void HeatPart::check(const StepContext& scene) {
     laws = scene.laws;
+    if (laws->grainsAreDiscs())
+        throw InputError(
+            "heat: it is conducted by the round spots in which spheres touch, and grains are discs; take "
+            "spheres, and hold them in the plane.");
     if (const auto objection = objectionToSoftening(*laws)) throw InputError(*objection);
     scene.contacts.askForHeldContacts();
     const auto species = static_cast<int>(scene.laws->speciesCount());

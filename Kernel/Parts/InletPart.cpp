@@ -52,13 +52,14 @@ GrainSizes sizesOfScene(const ContactLaws& laws, const ParticleStore& grains, co
     for (const InletHandler::Sizes& toCome : inlets.sizes(laws)) {
         // Twice, so that of all sizes between them any number may come; the count is that of a dense bed.
         const auto species = static_cast<std::size_t>(toCome.species);
+        if (toCome.bodies && !sizes.hasBodies) sizes.alone = sizes.free, sizes.hasBodies = true;
         for (const double radius : {toCome.smallest, toCome.smallest, toCome.largest, toCome.largest})
             for (auto* ranges : {&sizes.all, &sizes.free}) ranges->at(species).add(radius);
+        if (!toCome.bodies && sizes.hasBodies)
+            for (const double radius : {toCome.smallest, toCome.smallest, toCome.largest, toCome.largest})
+                sizes.alone[species].add(radius);
         sizes.count += contactsInDensestBed + 1;
-        if (!toCome.response) continue;
-        sizes.hasBodies = true;
-        sizes.response.inertia = std::min(sizes.response.inertia, toCome.response->inertia);
-        sizes.response.damping = std::max(sizes.response.damping, toCome.response->damping);
+        if (toCome.bodies) addTo(sizes.bodies, *toCome.bodies);
     }
     return sizes;
 }

@@ -41,10 +41,9 @@ struct RoundedBox {
 
     /// By how much its turning adds to 1/m at a contact, at most: (arm x n) I^-1 (arm x n) m.
     [[nodiscard]] double turning() const;
-    /// m, of the free sphere as which each of its contacts counts in the stability limit: of the mass
-    /// m / (4 (1 + turning)). The limit gives a grain 4 contacts along and 8 across any direction
-    /// (StabilityLimit.h); a block has 16 and 32, eight on each face, where all its faces lie on those of its
-    /// equals.
+    /// m, of a free sphere of the mass m / (4 (1 + turning)), which is less than any contact moves: as such
+    /// count its grains where sizes are compared (GrainSizes), and as large ones Hertz's law takes on its
+    /// faces.
     [[nodiscard]] double radiusAtContacts() const;
     /// m, at most, of a sphere on one of its faces as Hertz's law takes it: larger ones have this one.
     [[nodiscard]] double largestContactRadius() const;

@@ -130,10 +130,11 @@ void refuseInitialOverlaps(
 
 /// Ends a run in which two grains, at these places of the store, have come closer than any contact law is
 /// made for.
-/// @param largestShare of the smaller radius
+/// @param ofPair their laws
 static void refuseDeepOverlap(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
-                              const PeriodicBox& box, const ContactLaws& laws, double largestShare,
+                              const PeriodicBox& box, const ContactLaws& laws, const ContactLaws& ofPair,
                               double time) {
+    const double largestShare = ofPair.largestOverlapInRun;  // of the smaller radius
     const TranslationRecord &a = grains.translation[first], &b = grains.translation[second];
     const double smaller = std::min(radiusOrThickness(laws, grains, first),
                                     radiusOrThickness(laws, grains, second)),
@@ -147,10 +148,9 @@ static void refuseDeepOverlap(const ParticleStore& grains, std::uint32_t first, 
         if (!(overlap > largestShare * smaller)) return;
     }
     throw RunError(fmt::format(
-        "At time {:.6g} s {} overlap by {:.4g} m, {:.3g} % of the smaller radius and more than {:g} %: "
-        "take stiffer grains, a smaller time step, or lower speeds and loads.",
+        "At time {:.6g} s {} overlap by {:.4g} m, {:.3g} % of the smaller radius and more than {:g} %: {}.",
         time, namesOfGrains(grains, grains.identity[first], grains.identity[second]), overlap,
-        100 * overlap / smaller, 100 * largestShare));
+        100 * overlap / smaller, 100 * largestShare, ofPair.overlapAdvice));
 }
 
 void refuseDeepOverlaps(const ContactStore& store, const ParticleStore& grains, const PeriodicBox& box,
@@ -161,7 +161,7 @@ void refuseDeepOverlaps(const ContactStore& store, const ParticleStore& grains, 
         if (areHeld(grains, bucket, block.first[contact % Pack::lanes], block.second[contact % Pack::lanes]))
             return;
         refuseDeepOverlap(grains, block.first[contact % Pack::lanes], block.second[contact % Pack::lanes],
-                          box, laws, laws.ofPair(bucket.species1, bucket.species2).largestOverlapInRun, time);
+                          box, laws, laws.ofPair(bucket.species1, bucket.species2), time);
     });
 }
 

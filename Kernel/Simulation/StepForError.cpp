@@ -487,7 +487,7 @@ void chooseStep(Scene& scene, const std::vector<Meeting>& meetings, Work& work, 
 }  // namespace
 
 StepForError findStepForError(Scene& scene, double error, std::optional<double> speed) {
-    checkValue("setStepFor", "error", error, "1", {1e-4, 0.1});
+    checkValue("setStepFor", "error", error, "", {1e-4, 0.1});
     if (speed) checkValue("setStepFor", "speed of collisions", *speed, "m/s", positive);
     scene.laws().mixAll();
     if (scene.laws().grainsAreDiscs())

@@ -46,6 +46,26 @@ constexpr double largestOverlapInRun() {
     return largest;
 }
 
+/// What to do where two grains end a run by that; laws of which it is no help have their own as
+/// `overlapAdvice`.
+inline constexpr std::string_view usualOverlapAdvice =
+    "take stiffer grains, a smaller time step, or lower speeds and loads";
+/// Of laws under which grains grow together at any stiffness and step.
+inline constexpr std::string_view sinterOverlapAdvice =
+    "they sinter, and their neck is wider than the model holds for; end the run before, let them sinter more "
+    "slowly or up to a smaller overlap, or take lower loads";
+template <class Mixed>
+constexpr std::string_view overlapAdvice() {
+    std::string_view advice = usualOverlapAdvice;
+    const auto take = [&]<class Law>() {
+        if constexpr (requires { Law::overlapAdvice; }) advice = Law::overlapAdvice;
+    };
+    take.template operator()<typename Mixed::Normal>();
+    take.template operator()<typename Mixed::Friction>();
+    take.template operator()<typename Mixed::Adhesion>();
+    return advice;
+}
+
 /// A law's part of what a species is made for.
 struct OverlapLimit {
     std::string_view law = {};

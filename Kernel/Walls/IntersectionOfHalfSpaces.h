@@ -14,7 +14,7 @@ struct SolidFace {
     Vec3D point;   // m, on the plane
 };
 
-/// The surface of the solid that lies behind all of these planes, for TriangleWall::set(): plane faces,
+/// The surface of the solid that lies behind all of these planes, as the triangles of a mesh: plane faces,
 /// straight edges and corners. Grains may be outside of the solid (a wedge, a block, a blade) or inside of it
 /// (a box, a trough). Faces without end are cut off beyond a sphere around the grains, at squares, so that
 /// the surface may be open there.

@@ -34,7 +34,7 @@ struct MembraneWork {
 };
 
 /// An elastic membrane of triangles (MembraneNet.h) that touches grains from both sides. Contacts are with
-/// its triangles, as at a TriangleWall; their forces and torques go to the corners by barycentric weights.
+/// its triangles, as at a mesh; their forces and torques go to the corners by barycentric weights.
 /// Its vertices are integrated with the grains. It has no thickness for contacts, and does not touch itself:
 /// a run ends where a triangle collapses or folds onto its neighbour, or where the membrane goes through
 /// itself. A scene that repeats itself repeats it, and joins free edges that lie a period apart

@@ -188,6 +188,19 @@ TEST(Heat, whatCannotBeIsRefused) {
 }
 
 // At a step above C / sum H the run ends, with the step that is allowed: 93.7 s with two neighbours.
+// Discs touch along lines, and have masses by area.
+TEST(Heat, isRefusedWithDiscs) {
+    Column column(2, 1e-6);
+    column.wallHandler.clear();
+    column.particleHandler.holdAll(HeldAxes::inPlane());
+    column.speciesHandler.setGrainsAreDiscs();
+    column.setIntegrator(integrators::velocityVerlet);
+    const std::string text = support::refusal([&] { column.initialise(); });
+    EXPECT_TRUE(support::isOneSentence(text) && contains(text, "heat: ") &&
+                contains(text, "grains are discs"))
+        << text;
+}
+
 TEST(Heat, stepsThatAreTooLongEndTheRun) {
     Column good(3, 0.999 * held / (2 * contact));
     good.run(2);

@@ -663,6 +663,23 @@ TEST(MercuryCopies, areRefusedWithFacesAcrossAPeriodicAxis) {
     EXPECT_EQ(said(slanted, 2), "");
 }
 
+// Wedges of 100 degrees leave a gap of 60, and of 130 one of 100; those of 120 and 72 fill a turn.
+TEST(MercuryCopies, ofAWedgeFillATurn) {
+    const auto said = [](double degrees) {
+        GrainCopies copies;
+        const double angle = degrees * std::numbers::pi / 180;
+        return refusal([&] { copies.addTurn({1, 0, 0}, {std::cos(angle), std::sin(angle), 0}, {0, 0, 0}); });
+    };
+    for (const auto& [degrees, advice] :
+         {std::pair{100.0, "take 90 or 120 degrees"}, std::pair{130.0, "take 90 or 120 degrees"},
+          std::pair{50.0, "take 45 or 51.42857143 degrees"}}) {
+        const std::string text = said(degrees);
+        EXPECT_TRUE(isOneSentence(text) && contains(text, advice)) << text;
+        EXPECT_TRUE(contains(text, fmt::format("the faces is {:g} degrees", degrees))) << text;
+    }
+    for (const double degrees : {120.0, 90.0, 72.0, 360.0 / 7}) EXPECT_EQ(said(degrees), "") << degrees;
+}
+
 // Two grains that are pressed into each other by 0.2 of a radius, as the scene accepts, flow on together.
 TEST(MercuryCopies, ofABoxWithAGapOverlapAsTheirGrainsDo) {
     Periodic scene;

@@ -1,4 +1,5 @@
 """The types that pybind11 writes into docstrings differ between its versions; what the package makes of them does not."""
+import inspect
 import re
 from pathlib import Path
 
@@ -38,3 +39,24 @@ def test_every_type_of_the_stubs_has_a_name():
         name.strip() for line in re.findall(r"^from \w\S* import (.*)$", text, flags=re.M) for name in line.split(",")}
     used = {name for line in re.findall(r"^ *def .*$", text, flags=re.M) for name in re.findall(r"(?<![.\w])[A-Z]\w+", re.sub(r"'[^']*'", "", line))}
     assert used and used <= known | {"ArrayLike", "Vector", "None"}, used - known
+
+
+def help_of(thing, seen):
+    """The texts of a module's classes and functions, and of theirs."""
+    for name in dir(thing):
+        one = getattr(thing, name)
+        if name.startswith("_") or inspect.ismodule(one) or id(one) in seen:
+            continue
+        seen.add(id(one))
+        yield name, inspect.getdoc(one) or ""
+        if inspect.isclass(one):
+            yield from help_of(one, seen)
+
+
+def test_help_speaks_of_python():
+    """Classes and functions of C++ have other names here; "for set()" was what was left of one."""
+    texts = dict(help_of(pendular, set()))
+    assert len(texts) > 200 and "add_solid" in texts
+    of_cpp = {name: found for name, text in texts.items()
+              if (found := re.findall(r"\w*::\w*|\b[a-z]+[A-Z]\w*|\b\w+(?:Wall|Handler|Cylinder)\b|(?<![.\w])set\(\)", text))}
+    assert of_cpp == {}

@@ -283,3 +283,22 @@ def test_a_region_from_triangles():
     inside = pendular.mesh_inside([[o, y, x], [o, x, z], [o, z, y], [x, y, z]], scale=0.1)
     assert inside.volume == pytest.approx(1e-3 / 6, rel=1e-12)
     assert inside.contains((0.01, 0.01, 0.01)) and not inside.contains((0.09, 0.09, 0.09))
+
+
+def test_triangles_of_a_mesh():
+    """A square plate of two triangles, and a corner: what is drawn and computed from the arrays is the wall, also where it moved."""
+    scene = pendular.Scene(quiet=True)
+    glass = glass_in(scene)
+    plate = scene.add_mesh(glass, [[[0, 0, 0], [2, 0, 0], [2, 1, 0]], [[0, 0, 0], [2, 1, 0], [0, 1, 0]],
+                                   [[0, 0, 0], [0, 1, 0], [0, 0, 3]]])
+    def area():
+        corners = plate.vertices[plate.triangles]
+        return np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2
+
+    assert plate.triangles.shape[1] == 3 and plate.triangles.max() == len(plate.vertices) - 1
+    assert area() == pytest.approx(2 + 1.5, rel=1e-12)  # of the square of 2 x 1, and half of 1 x 3
+    assert len(plate.vertices) == 5  # corners that triangles share are one
+    plane = scene.add_plane(glass, (0, 0, -1), (0, 0, -9))
+    for name in ("triangles", "vertices"):
+        with pytest.raises(pendular.InputError, match=f"Wall 1 has no {name}"):
+            getattr(plane, name)

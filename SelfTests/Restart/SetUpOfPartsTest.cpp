@@ -2,6 +2,7 @@
 // each value that it compares is changed by a row. SetUpOfInletsTest.cpp has inlets, and SetUpOfWallsTest.cpp
 // walls, of which drives and membranes are parts, too.
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -217,11 +218,11 @@ TEST(SetUpOfParts, copiesOfGrains) {
     expectRefusals<C>(makeWedge,
                       {{"parts/copies of grains/faces0/lowerNormal",
                         [](C& s) {
-                            s.wedge = {0.8, -0.6, 0};
+                            s.wedge = {std::sqrt(0.75), -0.5, 0};  // a third of a turn
                         }},
                        {"parts/copies of grains/faces0/higherNormal",
                         [](C& s) {
-                            s.other = {-0.6, 0.8, 0};
+                            s.other = {-0.5, std::sqrt(0.75), 0};
                         }},
                        {"parts/copies of grains/faces0/lowerPoint", [](C& s) { s.apex = -0.001; }}});
 }

@@ -456,6 +456,7 @@ TEST(StepForError, refusesWhatCannotBe) {
     TwoGrains<HertzianViscoelasticMindlinSpecies> scene(hertz());
     for (const double error : {0.0, -1.0, 0.2, std::nan("")})
         EXPECT_TRUE(isOneSentence(refusal([&] { (void)scene.stepForError(error, speed); }))) << error;
+    EXPECT_TRUE(contains(refusal([&] { (void)scene.stepForError(2, speed); }), "error = 2 is out of range"));
     for (const double given : {0.0, -1.0, infinity})
         EXPECT_TRUE(isOneSentence(refusal([&] { (void)scene.stepForError(0.1, given); }))) << given;
     Simulation<HertzianViscoelasticMindlinSpecies> empty;

@@ -85,7 +85,7 @@ TEST(BlockRocking, fallsBackInHousnersTime) {
                    {0, 0, 0},
                    turnedBy(released, {0, 1, 0})});
         scene.addSlope(0);
-        scene.setTimeStep(0.5 * scene.stabilityLimit());
+        scene.setTimeStep(0.05 * scene.stabilityLimit());
         scene.initialise();
         double spin = 0;
         while (scene.interactions().size() < 3 && scene.getTime() < 0.2) {

@@ -28,7 +28,7 @@ struct OnSlope : FewBlocks {
         const double sinking = mass * g / (4 * stiffness);
         add({{b + radius, b + radius, h}, radius, {0, 0, h - sinking}});
         addSlope(0);
-        setTimeStep(0.5 * stabilityLimit());
+        setTimeStep(0.05 * stabilityLimit());
         initialise();
         while (getTime() < rise) {
             const double share = std::min(getTime() / rise, 1.0),

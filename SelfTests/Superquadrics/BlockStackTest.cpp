@@ -36,7 +36,7 @@ struct Stack : FewBlocks {
                  turnedBy(twistOf(k), {0, 0, 1})});
         }
         addSlope(angle);
-        setTimeStep(0.5 * stabilityLimit());
+        setTimeStep(0.3 * stabilityLimit());
     }
     [[nodiscard]] double weight() { return g * body(0).getMass(); }  // N
     /// N, and its moment (N m) about y through a point at x: of what carries block k from below.
@@ -109,7 +109,7 @@ TEST(HeavyBlockStack, edgesCarryWhatLiesAcross) {
     for (const double side : {-0.012, 0.012})
         scene.add({beam, radius, {side, 0, 0.012}, {0, 0, 0}, {0, 0, 0}, across});
     scene.addSlope(0);
-    scene.setTimeStep(0.5 * scene.stabilityLimit());
+    scene.setTimeStep(0.3 * scene.stabilityLimit());
     scene.initialise();
     scene.stepUntil(0.5);
     const Vec3D before = scene.body(2).getPosition();

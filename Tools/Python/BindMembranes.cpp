@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "Kernel/Species/LawNames.h"
@@ -50,6 +51,31 @@ void hold(const WallHandle& wall, const py::function& where, const Vec3D& veloci
               velocity);
 }
 
+/// A mesh where it is now: its faces, which are convex, as triangles with the numbers of vertices.
+struct IndexedMesh {
+    std::vector<Vector<double>> vertices;  // m
+    std::vector<std::int64_t> corners;     // three for each triangle
+
+    explicit IndexedMesh(const TriangleWall& wall) {
+        std::map<std::array<double, 3>, std::int64_t> known;
+        const auto numberOf = [&](const Vector<double>& place) {
+            const auto [at, isNew] =
+                known.try_emplace({place.x, place.y, place.z}, static_cast<std::int64_t>(vertices.size()));
+            if (isNew) vertices.push_back(place);
+            return at->second;
+        };
+        for (const auto& face : wall.surface({}).polygons)
+            for (std::size_t k = 2; k < face.size(); ++k)
+                for (const std::size_t corner : {std::size_t{0}, k - 1, k})
+                    corners.push_back(numberOf(face[corner]));
+    }
+};
+
+/// Null for walls of other kinds. Throws as WallHandle::seen().
+const TriangleWall* meshOf(const WallHandle& wall) {
+    return dynamic_cast<const TriangleWall*>(&wall.seen<Wall>("triangles"));
+}
+
 template <class Of>
 py::array vertices(const WallHandle& wall, Of&& of) {
     const auto& membrane = wall.seen<Membrane>("vertices");
@@ -61,8 +87,10 @@ py::array vertices(const WallHandle& wall, Of&& of) {
 
 py::array triangles(const WallHandle& wall) {
     std::vector<std::int64_t> corners;
-    for (const auto& triangle : wall.seen<Membrane>("triangles").getNet().triangles())
-        corners.insert(corners.end(), triangle.begin(), triangle.end());
+    if (const TriangleWall* const mesh = meshOf(wall)) corners = IndexedMesh(*mesh).corners;
+    else
+        for (const auto& triangle : wall.seen<Membrane>("triangles").getNet().triangles())
+            corners.insert(corners.end(), triangle.begin(), triangle.end());
     const auto count = static_cast<py::ssize_t>(corners.size() / 3);
     return arrayOf(std::move(corners), {count, 3});
 }
@@ -149,11 +177,15 @@ void bindMembranes(py::module_& module, SceneClass& scene) {
         .def_property_readonly(
             "vertices",
             [](const WallHandle& w) {
+                if (const TriangleWall* const mesh = meshOf(w)) return arrayOf(IndexedMesh(*mesh).vertices);
                 return vertices(w, [](const Membrane& m, std::size_t k) { return m.getPosition(k); });
             },
-            "m, N x 3: where the vertices of a membrane or host wall are.")
-        .def_property_readonly("triangles", &triangles,
-                               "N x 3: the numbers of the vertices at their corners.")
+            "m, N x 3: where the vertices of a mesh, a membrane or a host wall are now.")
+        .def_property_readonly(
+            "triangles", &triangles,
+            "N x 3: the numbers of the vertices at their corners. Of a mesh, triangles that "
+            "lie in one plane may be others than those that were given, on the same faces; "
+            "of one with keep_wear() they are the same.")
         .def_property_readonly(
             "vertex_velocities",
             [](const WallHandle& w) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "Kernel/Species/ContactSpot.h"
+#include "Kernel/Species/DomainLimit.h"
 #include "Kernel/Species/Law.h"
 #include "Kernel/Species/Setter.h"
 
@@ -51,6 +52,7 @@ struct ParhamiMcMeekingSinter {
     static constexpr bool readsOverlap = true;
     static constexpr BridgeResists resists = BridgeResists::Sliding;
     static constexpr double largestOverlapInRun = 1;
+    static constexpr std::string_view overlapAdvice = sinterOverlapAdvice;
     /// Twelve contacts of a grain add up to 4 along a direction, and to 8 x 5/2 of 7/2 of turns: 5.7.
     static constexpr double implicitNeighbours = 6;
 

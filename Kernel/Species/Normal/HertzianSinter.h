@@ -8,6 +8,7 @@
 #include <string>
 
 #include "Kernel/Math/ElementaryFunctions.h"
+#include "Kernel/Species/DomainLimit.h"
 #include "Kernel/Species/Law.h"
 #include "Kernel/Species/Normal/Shared/PlasticBranches.h"
 #include "Kernel/Species/Setter.h"
@@ -32,6 +33,7 @@ struct HertzianSinter {
     static constexpr std::string_view domain =
         "necks small against the radius; m ends at d*; a contact that has parted forgets it";
     static constexpr double largestOverlapInRun = 1;
+    static constexpr std::string_view overlapAdvice = sinterOverlapAdvice;
 
     double loadingModulus = unset;       // E1, Pa
     double unloadingModulusMax = unset;  // E_p, Pa

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "Kernel/Species/DomainLimit.h"
 #include "Kernel/Species/Normal/Shared/PlasticSprings.h"
 
 namespace pendular {
@@ -47,6 +48,7 @@ struct Sinter : PlasticSprings<Sinter> {
     static constexpr std::string_view domain =
         "necks small against the radius; d_p ends at d_f; a contact that has parted forgets it";
     static constexpr double largestOverlapInRun = 1;
+    static constexpr std::string_view overlapAdvice = sinterOverlapAdvice;
 
     double sinterAdhesion = 0;  // S_a, N/m
     double sinterRate = 0;      // r, 1/s

@@ -1,0 +1,272 @@
+#include "Kernel/Motion/BodyLimits.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "Kernel/Contacts/GrainShapes.h"
+#include "Kernel/Motion/SceneLimits.h"
+#include "Kernel/Walls/InfiniteWall.h"
+#include "Kernel/Walls/TriangleWall.h"
+
+namespace pendular {
+
+namespace {
+
+/// One side of a contact.
+struct Side {
+    std::size_t species;
+    double radius;         // m; infinite of a wall; of a block that of its edges
+    double flat = 0;       // m, of a block: the largest that counts on its faces
+    double mass;           // kg; infinite of what does not move, or may not
+    double spheres = 1;    // of a body that another grain touches at once, in the mean
+    bool isPlane = false;  // of a wall
+    double finer = 0;      // 1/m, and
+    double finest = 0;     // 1/m^2: means of 1/r and 1/r^2 over the surface of a body
+    [[nodiscard]] bool isBlock() const { return flat > 0; }
+};
+
+/// Whether the wall has no hollow that a body may fit into, so that it touches all of its spheres at once.
+/// (Of meshes it is supposed.)
+bool isFlat(const Wall& wall) {
+    return dynamic_cast<const InfiniteWall*>(&wall) || dynamic_cast<const TriangleWall*>(&wall);
+}
+
+/// How many bodies there are: one that is alone touches no other.
+std::size_t countOf(const std::vector<BodiesAlike>& bodies) {
+    std::size_t count = 0;
+    for (const BodiesAlike& one : bodies) count += one.count;
+    return count;
+}
+
+/// From how many sides, up to two, plane walls may touch a body.
+double sidesOfPlanes(const WallHandler& walls) {
+    double sides = 0;
+    for (const PresentWall& wall : walls.present())
+        sides += dynamic_cast<const InfiniteWall*>(wall.object.get()) ? 1 : isFlat(*wall.object) ? 2 : 0;
+    return std::min(sides, 2.0);
+}
+
+/// What bodies may touch: the extremes of each species.
+std::vector<Side> partners(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls) {
+    std::vector<Side> found;
+    const GrainSizes others = grains.withoutBodies();
+    for (std::size_t s = 0; s < others.all.size(); ++s) {
+        const SizeRange& sizes = others.all[s];
+        if (sizes.empty()) continue;
+        const double heaviest = others.held[s].empty() ? species.massOf(s, sizes.largest) : infinity;
+        for (const double radius : {sizes.smallest, sizes.largest})
+            found.push_back({.species = s, .radius = radius, .mass = heaviest});
+    }
+    for (std::size_t s = 0; s < grains.all.size() && countOf(grains.bodies) > 1; ++s)
+        for (const bool blocks : {false, true}) {
+            Side smallest{.species = s, .radius = infinity, .mass = 0},
+                largest{.species = s, .radius = 0, .mass = 0};
+            for (const BodiesAlike& body : grains.bodies) {
+                if (body.species != s || body.isBlock != blocks) continue;
+                const BodiesAlike::Size &light = body.least, &heavy = body.most;
+                smallest.radius = std::min({smallest.radius, light.smallest, heavy.smallest});
+                const double own = blocks ? std::max(light.smallest, heavy.smallest)
+                                          : std::max(light.largest, heavy.largest);
+                largest.radius = std::max(largest.radius, own);
+                largest.mass = std::max(largest.mass, heavy.mass);
+                largest.spheres = std::max(largest.spheres, body.around.facing());
+                const double widest = light.largest;
+                largest.finer = std::max(largest.finer, body.around.finer / widest);
+                largest.finest = std::max(largest.finest, body.around.finest / (widest * widest));
+                if (blocks) largest.flat = std::max({largest.flat, light.largest, heavy.largest});
+            }
+            if (!(largest.mass > 0)) continue;
+            smallest.mass = largest.mass, smallest.spheres = largest.spheres, smallest.flat = largest.flat;
+            smallest.finer = largest.finer, smallest.finest = largest.finest;
+            found.push_back(smallest), found.push_back(largest);
+        }
+    for (const PresentWall& wall : walls.present())
+        found.push_back({.species = static_cast<std::size_t>(wall.object->getSpeciesIndex()),
+                         .radius = infinity,
+                         .mass = infinity,
+                         .isPlane = isFlat(*wall.object)});
+    return found;
+}
+
+/// As Hertz's law takes a touch: of a block the face is flat, and a sphere on it has at most the block's
+/// largest radius.
+Bodies touchOf(const Side& one, const Side& two) {
+    if (!one.isBlock() && !two.isBlock()) return Bodies{one.radius, two.radius};
+    if (one.isBlock() && two.isBlock()) return Bodies{std::max(one.radius, two.radius), infinity};
+    const Side &block = one.isBlock() ? one : two, &other = one.isBlock() ? two : one;
+    if (!(other.radius < infinity)) return Bodies{block.radius, infinity};
+    return Bodies{std::max(block.radius, std::min(other.radius, block.flat)), infinity};
+}
+
+/// More grains than are supposed find room on a body if they are smaller than its spheres: on a sphere of
+/// radius R those of radius r, ((R + r) / 2 r)^2 times as many, and of the spheres of bodies the mean over
+/// their surface. On the face of a block eight are supposed, and there is room for a hexagonal layer.
+double roomFor(const Side& partner, const Side& own, double face) {
+    if (partner.isBlock() || !(partner.radius < infinity)) return 1;
+    const double radius = partner.radius;
+    if (own.isBlock()) return std::max(1.0, face / (2 * std::numbers::sqrt3 * radius * radius) / 8);
+    const double ofOne = 1 / radius, finer = partner.finer > 0 ? partner.finer : ofOne,
+                 finest = partner.finest > 0 ? partner.finest : ofOne * ofOne;
+    return std::max(1.0, 0.25 * (own.radius * own.radius * finest + 2 * own.radius * finer + 1));
+}
+
+/// Contacts of one side, as if each of the other were at rest, over the mass.
+class Loads {
+public:
+    Loads(const ContactLaws& of, const GrainSizes& grains, std::size_t contacts)
+        : species(of), heldDamping(grains.heldDamping), met(contacts) {}
+
+    struct Contact {
+        ContactStiffness stiffness;
+        Bodies bodies;
+        double effectiveMass;  // kg
+    };
+    [[nodiscard]] Contact contactOf(const Side& own, const Side& partner) const {
+        const double mass = 1 / (1 / own.mass + 1 / partner.mass);
+        const Bodies bodies = touchOf(own, partner);
+        // A block's radii are true ones, which the laws of shapes would take as those of spheres around.
+        const double known =
+            own.isBlock() || partner.isBlock() ? std::sqrt(species.shapes()->largestRadiusRatio()) : 1;
+        return {species.stiffness(static_cast<int>(own.species), static_cast<int>(partner.species),
+                                  {bodies.radius1 / known, bodies.radius2 / known}, heldDamping * mass),
+                bodies, mass};
+    }
+    /// Of a body. @param times more contacts than it has among its equals
+    [[nodiscard]] BodyLoad ofBody(const Contact& contact, const ContactsAround& around, double mass,
+                                  double times) const {
+        const ContactStiffness& s = contact.stiffness;
+        const double unit = times / mass, turn = around.turning * squaredLeverOfRotation(contact.bodies);
+        const SpringAndDashpot turning = met.across * turn * s.rolling + met.along * turn * s.torsion,
+                               spin = unit * (met.across * around.spin * s.sliding + turning);
+        const SpringAndDashpot both =
+            unit * (met.along * around.normal * s.normal + met.across * around.sliding * s.sliding + turning);
+        return completed({.all = larger(both, spin), .spin = spin}, contact, 4 * around.normal / mass);
+    }
+    /// Of a body at planes on so many sides.
+    [[nodiscard]] BodyLoad ofBodyAtPlanes(const Contact& contact, const ContactsAround& around, double mass,
+                                          double sides) const {
+        const ContactStiffness& s = contact.stiffness;
+        const double unit = sides / mass, turn = around.turning * squaredLeverOfRotation(contact.bodies);
+        const SpringAndDashpot turning = turn * (s.rolling + s.torsion);
+        return completed(
+            {.all = unit * (around.wallNormal * s.normal + around.wallSliding * s.sliding + turning),
+             .spin = unit * (around.wallSpin * s.sliding + turning)},
+            contact, around.wallNormal / mass);
+    }
+    /// Of a free sphere, each of whose contacts is with so many spheres.
+    [[nodiscard]] BodyLoad ofSphere(const Contact& contact, double mass, double spheres) const {
+        const ContactStiffness& s = contact.stiffness;
+        const double unit = spheres / mass;
+        const SpringAndDashpot spin = turningAmong(met, s, contact.bodies, 1 / unit);
+        return completed(
+            {.all = larger(unit * (met.along * s.normal + met.across * s.sliding), spin), .spin = spin},
+            contact, unit);
+    }
+    [[nodiscard]] double along() const { return met.along; }
+
+private:
+    /// @param mobility 1/kg, of the side at one contact
+    [[nodiscard]] static BodyLoad completed(BodyLoad load, const Contact& contact, double mobility) {
+        load.relaxation = contact.stiffness.shortestRelaxation();
+        load.neighbours =
+            implicitNeighboursLimit(contact.stiffness, 1 / (1 / contact.effectiveMass + mobility));
+        return load;
+    }
+    const ContactLaws& species;
+    double heldDamping;
+    Neighbours met;
+};
+
+BodyLoad largest(const BodyLoad& a, const BodyLoad& b) {
+    return {larger(a.all, b.all), larger(a.spin, b.spin), std::min(a.relaxation, b.relaxation),
+            std::min(a.neighbours, b.neighbours)};
+}
+
+/// A load, and a share of another one.
+BodyLoad sum(const BodyLoad& a, const BodyLoad& b, double share) {
+    return {a.all + share * b.all, a.spin + share * b.spin, std::min(a.relaxation, b.relaxation),
+            std::min(a.neighbours, b.neighbours)};
+}
+
+/// The sides of a body: with its smallest and its largest grains.
+std::array<Side, 2> sidesOf(const BodiesAlike& body, const BodiesAlike::Size& size) {
+    Side smallest{.species = body.species, .radius = size.smallest, .mass = size.mass}, largest = smallest;
+    if (body.isBlock) smallest.flat = largest.flat = size.largest;
+    else largest.radius = size.largest;
+    return {smallest, largest};
+}
+
+}  // namespace
+
+BodyLoad loadOfBodies(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                      std::size_t contacts) {
+    const Loads loads(species, grains, contacts);
+    const GrainSizes alone = grains.withoutBodies();
+    BodyLoad ofBodies, ofSpheres;
+    const std::vector<Side> all = partners(species, grains, walls);
+    const double sides = sidesOfPlanes(walls);
+    for (const BodiesAlike& body : grains.bodies)
+        for (const BodiesAlike::Size& size : {body.least, body.most})
+            for (const Side& own : sidesOf(body, size)) {
+                BodyLoad amongOthers, atPlanes;
+                for (const Side& partner : all) {
+                    const Loads::Contact contact = loads.contactOf(own, partner);
+                    if (partner.isPlane)
+                        atPlanes =
+                            largest(atPlanes, loads.ofBodyAtPlanes(contact, body.around, size.mass, sides));
+                    else
+                        amongOthers = largest(
+                            amongOthers, loads.ofBody(contact, body.around, size.mass,
+                                                      partner.spheres * roomFor(partner, own, size.face)));
+                }
+                // Planes on two sides leave room for half of the others.
+                ofBodies = largest(ofBodies, amongOthers);
+                ofBodies = largest(ofBodies, sum(atPlanes, amongOthers, 0.5));
+                // A sphere among such bodies, or on one at its densest place.
+                const double touched = std::max(body.around.mean, body.around.most / loads.along());
+                for (std::size_t s = 0; s < alone.free.size(); ++s)
+                    if (!alone.free[s].empty())
+                        for (const double radius : {alone.free[s].smallest, alone.free[s].largest}) {
+                            const double mass = species.massOf(s, radius);
+                            const Side sphere{.species = s, .radius = radius, .mass = mass};
+                            ofSpheres = largest(ofSpheres,
+                                                loads.ofSphere(loads.contactOf(sphere, own), mass, touched));
+                        }
+            }
+    forEachExtremePair(species, alone, walls, [&](const PairLaws& pair, const Bodies& bodies, double mass) {
+        const ContactStiffness stiffness = contactStiffness(pair, bodies, grains.heldDamping * mass);
+        const double own = species.massOf(static_cast<std::size_t>(pair.a), bodies.radius1);
+        ofSpheres = largest(ofSpheres, loads.ofSphere({stiffness, bodies, mass}, own, 1));
+    });
+    // One that is alone touches only what does not move.
+    const bool isOnly = countOf(grains.bodies) == 1 && std::ranges::all_of(alone.free, &SizeRange::empty);
+    BodyLoad both = isOnly ? BodyLoad{} : largest(ofBodies, ofSpheres);
+    both.all = both.all + ofBodies.all, both.spin = both.spin + ofBodies.spin;
+    both.relaxation = std::min(both.relaxation, ofBodies.relaxation);
+    both.neighbours = std::min(both.neighbours, ofBodies.neighbours);
+    return both;
+}
+
+double limitOfBodies(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                     const Integrator& integrator, std::size_t contacts, const WallResponse& ofWalls) {
+    if (grains.bodies.empty()) return infinity;
+    const BodyLoad load = loadOfBodies(species, grains, walls, contacts);
+    const SpringAndDashpot mode = load.all + larger(ofWalls.shift, ofWalls.spin);
+    const double turning = load.spin.spring + ofWalls.spin.spring;  // 1/s^2
+    double limit = SignChange(integrator).limit(mode);
+    if (!integrator.contacts.timesTouches) return stabilityMargin * limit;
+    if (integrator.contacts.implicitForces) limit = std::min(limit, load.neighbours);
+    if (!integrator.contacts.springsInStep && turning > 0)
+        limit = std::min(limit, springsAheadLimit(turning, load.relaxation, integrator));
+    return stabilityMargin * limit;
+}
+
+double stepOfFastestBodies(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls) {
+    if (grains.bodies.empty()) return infinity;
+    const BodyLoad load = loadOfBodies(species, grains, walls, contactsInDensestBed);
+    return std::min(stabilityMargin * 2 / std::sqrt(load.all.spring), stabilityMargin * load.neighbours);
+}
+
+}  // namespace pendular
