@@ -31,7 +31,7 @@ struct Options {
                         all.push_back(given);
                         all.back().stepsPerContact = step, all.back().spin = spin;
                         all.back().angle = angle, all.back().speed = speed;
-                        scenes::WetWallImpact{all.back()}.setQuiet();
+                        scenes::WetWallImpact{all.back()}.setQuiet();  // bad input is refused here
                     }
         return all;
     }
@@ -82,7 +82,7 @@ void run(const Options& options) {
         }
         const scenes::WetWallCase& given = cases[k];
         scenes::WetWallImpact scene(given);
-        scene.setQuiet();
+        scene.setQuiet();  // one of hundreds, whose results are the rows of one table
         scene.setName(options.run.output + "/stopped");
         scene.setNumberOfThreads(options.run.threads);
         scene.keepEnergyLedger(options.energy);

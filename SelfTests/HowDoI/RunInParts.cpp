@@ -8,7 +8,7 @@ TEST_F(HowDoI, RunInParts) {
     testing::internal::CaptureStdout();
     // [snippet]
     FirstDriver driver;
-    driver.setQuiet();
+    driver.setShowsProgress(false);  // the loop prints it
     for (int k = 1; !driver.hasEnded(); ++k) {
         driver.runTo(0.004 * k);  // s
         fmt::print("{:.3f} s: x = {:.6f} m\n", driver.getTime(),

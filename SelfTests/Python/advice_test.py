@@ -1,14 +1,16 @@
 """What the pages advise is what the module, the examples and the drivers do by default.
 
-A kind of advice (the law; others may follow) has one page that states it, with a table of the programs that do otherwise and why.
+A kind of advice (the law, the step, warnings) has one page that states it, with a table of the programs that do otherwise and why.
 The tests below read the page, and compare it with the other pages, with the module, and with the sources of all programs.
 """
 import re
+import warnings
 from pathlib import Path
 
 import pytest
 
 import pendular
+from conftest import GLASS, tower
 
 ROOT = Path(__file__).parents[2]
 DRIVERS, EXAMPLES = ROOT / "Drivers", ROOT / "Tools/Python/Examples"
@@ -109,3 +111,86 @@ def test_exceptions_have_a_reason():
     for program, reason in rows_below(FRICTION, EXCEPTIONS).items():
         assert re.search(r"reproduces|only the .* counts?$|beside other programs", reason), program
         assert (ROOT / program).exists() or (ROOT / f"{program}.cpp").exists(), program
+
+
+# The step ------------------------------------------------------------------------------------------------------------
+
+MOTION = "Kernel/Motion/README.md"
+OTHER_STEPS = "### Examples that take another step"
+IN_CPP = r"setTimeStep\(std::min\(stabilityLimit\(\), shortestContactTime\(\) / (\d+)\)\)"
+IN_PYTHON = r"time_step = min\(scene\.stability_limit\(\), scene\.shortest_contact_time\(\) / (\d+)\)"
+OF_ANOTHER_LENGTH = re.compile(r"\.time_step = |choose_time_step\([^)]|set_step_for\(")
+
+
+def advised_steps_in_contact():
+    return int(re.search(rf"For most scenes.*?{IN_CPP}", (ROOT / MOTION).read_text(), flags=re.S)[1])
+
+
+@pytest.mark.parametrize("name, form", [("Kernel/HOW-DO-I.md", IN_CPP), ("Tools/Python/HOW-DO-I.md", IN_PYTHON), ("README.md", IN_CPP)])
+def test_pages_say_one_thing_of_the_step(name, form):
+    text = (ROOT / name).read_text()
+    if name != "README.md":
+        text = text.partition("### Choose the time step\n")[2].partition("\n### ")[0]
+    assert int(re.search(form, text)[1]) == advised_steps_in_contact()
+
+
+@pytest.mark.parametrize("restitution, byContact", [(0.9, True), (0.1, False)])  # dashpots take the limit below that
+def test_the_module_takes_the_advised_step(restitution, byContact):
+    scene = tower()
+    scene.glass.set(restitution_coefficient=restitution)
+    limit, part = scene.stability_limit(), scene.shortest_contact_time() / advised_steps_in_contact()
+    assert (part < limit) == byContact
+    assert scene.choose_time_step() == scene.time_step == min(limit, part)
+
+
+def test_examples_follow_the_advice_on_the_step():
+    folder = "Tools/Python/Examples/"
+    others = {name for name, text in examples().items() if OF_ANOTHER_LENGTH.search(text)}
+    assert others == {row.removeprefix(folder) for row in rows_below(MOTION, OTHER_STEPS)}
+    assert len([name for name, text in examples().items() if ".choose_time_step()" in text]) > 5
+
+
+def without_a_reason(call):
+    """Lines of drivers with a call that have no comment, at their ends or above."""
+    found = []
+    for file in [*DRIVERS.rglob("*.cpp"), *DRIVERS.rglob("*.h")]:
+        lines = file.read_text().splitlines()
+        found += [f"{file.name}: {line.strip()}" for before, line in zip([""] + lines, lines)
+                  if call in line and "//" not in line and not before.strip().startswith("//")]
+    return found
+
+
+def test_drivers_above_the_stability_limit_say_why():
+    """All others are refused by the kernel, if their step is above it."""
+    assert not without_a_reason("acceptUnstableTimeStep()")
+
+
+# Warnings ------------------------------------------------------------------------------------------------------------
+
+
+def test_pages_say_that_warnings_come_by_default():
+    assert "Warnings are printed once each" in page("Kernel/HOW-DO-I.md")
+    assert "What a scene warns of is a `pendular.SceneWarning`, once each" in page("Tools/Python/HOW-DO-I.md")
+
+
+def test_the_module_warns_by_default():
+    scene = pendular.Scene()
+    glass = scene.add_species("HertzianViscoelasticMindlin", **dict(GLASS, density=2.5))
+    scene.add_grains(glass, [[0, 0, 0]], 1e-3)
+    scene.choose_time_step()
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always")
+        scene.run(steps=2)
+        scene.run(steps=2)
+    assert [one.category for one in found] == [pendular.SceneWarning]
+
+
+def test_examples_and_snippets_are_not_quiet():
+    texts = examples() | {name: "".join(snippets(name)) for name in ("README.md", "Tools/Python/README.md", "Kernel/HOW-DO-I.md",
+                                                                     "Tools/Python/HOW-DO-I.md")}
+    assert not [name for name, text in texts.items() if re.search(r"quiet ?= ?True|setQuiet\(\)", text)]
+
+
+def test_drivers_are_quiet_where_they_are_asked_to_be():
+    assert "bool quiet = false;" in (DRIVERS / "Shared/RunOptions.h").read_text()
+    assert not without_a_reason("setQuiet()")
