@@ -188,6 +188,32 @@ TEST(LikelySlips, areNotSeenWhereTheSceneIsRight) {
         EXPECT_EQ(toldOf<LiquidBridgeBagheri>(right), "");
 }
 
+/// Grains that a hook adds, or that are added between two parts; once, though more come, which are larger.
+TEST(LikelySlips, areToldOfWhatComesInTheRun) {
+    Simulation<Rough> scene;
+    Rough species = scenes::boxMaterial<Rough>(0);
+    auto* const glass = scene.speciesHandler.copyAndAddObject(species);
+    species.setDensity(2.5);
+    auto* const other = scene.speciesHandler.copyAndAddObject(species);
+    const auto add = [&](const Rough* own, double radius, double x) {
+        SphericalParticle grain(own);
+        grain.setRadius(radius);
+        grain.setPosition({x, 0, 0});
+        scene.particleHandler.copyAndAddObject(grain);
+    };
+    const auto told = [&] { return printedBy([&] { scene.runSteps(2); }); };
+    add(glass, 1e-3, 0);
+    scene.setTimeStep(1e-8);
+    EXPECT_EQ(told(), "");
+    add(other, 1e-3, 0.01);
+    const std::string first = told();
+    EXPECT_EQ(countOf(first, "Warning: "), 1u) << first;
+    EXPECT_TRUE(contains(first, "species 1: density = 2.5 kg/m^3")) << first;
+    add(other, 2e-3, 0.02);
+    EXPECT_EQ(told(), "");
+    EXPECT_EQ(scene.getNumberOfTimeSteps(), 6u);
+}
+
 TEST(LikelySlips, densitiesOfDiscsAreByArea) {
     Simulation<Rough> scene;
     scene.speciesHandler.setGrainsAreDiscs();
