@@ -46,9 +46,11 @@ void writeToLog(std::string_view text, LogLevel level) noexcept {
     std::clearerr(stderr);
 }
 
-/// Without the full stop: a summary has a sentence without it.
+/// Without the full stop: a summary has a sentence without it. Several threads of a driver may warn at once.
 void Logger::remember(std::string_view warning) const {
     constexpr std::size_t most = 100;
+    static std::mutex access;
+    const std::scoped_lock lock(access);
     if (warning.ends_with('.')) warning.remove_suffix(1);
     if (given.size() < most && std::ranges::find(given, warning) == given.end()) given.emplace_back(warning);
 }

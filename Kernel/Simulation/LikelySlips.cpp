@@ -41,12 +41,14 @@ void lookAtDensity(const ContactLaws& laws, std::size_t species, double radius, 
 void lookAtModuli(const ContactLaws& laws, int species, Sentences& found) {
     constexpr double softest = 5000;  // Pa
     for (const FieldValue& field : laws.fields(species, species)) {
-        const bool isOfNormalLaw = field.name == "effectiveElasticModulus" || field.name == "loadingModulus";
+        const bool isEffective = field.name == "effectiveElasticModulus",
+                   isOfNormalLaw = isEffective || field.name == "loadingModulus";
         if (!isOfNormalLaw || !(field.value > 0 && field.value < softest)) continue;
+        const char* const meaning = isEffective ? ", of Young's modulus E/(2 (1 - nu^2))," : "";
         found.push_back(fmt::format(
-            "species {}: {} = {:.4g} Pa is softer than any grains are: they will sink into each other and "
+            "species {}: {} = {:.4g} Pa{} is softer than any grains are: they will sink into each other and "
             "through walls; if the modulus is in GPa or MPa, 1 GPa is 1e9 Pa",
-            species, field.name, field.value));
+            species, field.name, field.value, meaning));
     }
 }
 

@@ -269,6 +269,9 @@ std::vector<const Run::KeptOutput*> Run::dueOutputs(bool atEnd, bool own) {
 void Run::prepareOutputs() {
     lockName();
     keepStatus();
+    // A driver that steps by itself is warned here; a run is when it begins its files.
+    if ((underWay & Within::Solving) == 0 && !isRestarted() && !isSilentRank())
+        static_cast<void>(withoutThoseOfOthers({}));
     for (std::size_t k = 0; k < outputs.size(); ++k)  // one may add another one
         if (outputs[k].prepare) outputs[k].prepare();
 }

@@ -32,6 +32,7 @@ struct Run::Course {
     int heard = RunControl::Nothing;  // after the last step
     bool goesOn = true;               // by continueSolve() on any rank, where there are several
     PartEnd end;                      // of the part under way
+    std::optional<std::size_t> told;  // steps, at the end of the last part that told warnings
 };
 
 Run::Run() : timeStep(unset) { prepareProgram(); }
@@ -197,10 +198,11 @@ void Run::lockName() {
 /// From here on the restart file is one of this run: what goes on mixes no two runs. That of an earlier run
 /// is not lost before there is the new one.
 void Run::beginFiles() {
-    const bool keepsOther = restarts.kept && !(isRestarted() && isOwnRestartFile(restartSource));
+    const bool goesOn = isRestarted() && isOwnRestartFile(restartSource),
+               keepsOther = restarts.kept && !goesOn;
     std::vector<std::filesystem::path> former = std::move(replaced);
     if (keepsOther) former.push_back(restartFile());
-    if (!isRestarted() && !isSilentRank()) former = withoutThoseOfOthers(std::move(former));
+    if (!goesOn && !isSilentRank()) former = withoutThoseOfOthers(std::move(former));
     SetAside aside(std::move(former));
     if (!isRestarted()) writeAll();
     else if (statusFile) writeStatus(StatusOf::RunOnItsWay);
@@ -233,6 +235,13 @@ static std::string otherWriterOf(const std::string& run) {
     return program;
 }
 
+/// The name that the restart file of another program gets. A summary may have any text: the file stays in its
+/// folder.
+static std::string keptRestartFile(const std::string& run, std::string program) {
+    std::ranges::replace(program, '/', '-');
+    return fmt::format("{}-restart-of-{}.h5", run, program);
+}
+
 /// Gives restart files of other programs, which this run would replace, another name. Returns the files that
 /// are this program's own.
 std::vector<std::filesystem::path> Run::withoutThoseOfOthers(
@@ -243,7 +252,7 @@ std::vector<std::filesystem::path> Run::withoutThoseOfOthers(
         if (path.size() < ending || restartFileOf(path.substr(0, path.size() - ending)) != file) return false;
         const std::string run = path.substr(0, path.size() - ending), program = otherWriterOf(run);
         if (program.empty()) return false;
-        const std::string kept = fmt::format("{}-restart-of-{}.h5", run, program);
+        const std::string kept = keptRestartFile(run, program);
         std::error_code problem;
         std::filesystem::rename(file, kept, problem);  // there may be none
         warnOfOtherProgram(logger, run, program, problem ? std::string() : kept);
@@ -325,7 +334,14 @@ void Run::stepUntil(const PartEnd& end) {
     }
     if (stops || !goesOn || (timeMaxIsSet && steps >= stepAt(timeMax))) return endRun(stops);
     gatherForDriver();
-    if (!isShared()) tellWarnings(false);
+    // Also where a summary repeats them, as its program may not come to the end of the run. Not after each of
+    // many short parts: it looks at all grains.
+    constexpr std::size_t between = 100;  // steps
+    if (isQuiet() || isShared() || (course->told && steps < *course->told + between)) return;
+    course->told = steps;
+    try {
+        warnOnce(warningsSoFar(false));
+    } catch (const std::exception&) {}  // a warning never ends a run
 }
 
 void Run::endRun(bool stops) {

@@ -138,6 +138,24 @@ static void refuseWalls(const GrainShapes* shapes, const WallHandler& walls) {
             throw InputError(fmt::format("wall {}: {}.", number, reason));
 }
 
+/// Once of each kind, though its numbers change as more grains come.
+static void warnOfSlips(const Logger& logger, const ContactLaws& laws, const GrainSizes& sizes,
+                        const WallHandler& walls) {
+    for (const std::string& slip : likelySlips(laws, sizes, walls)) {
+        const std::string kind = slip.substr(0, std::min(slip.find(" = "), slip.find(" it is ")));
+        const auto isOfIt = [&](const std::string& told) { return told.starts_with(kind); };
+        if (std::ranges::none_of(logger.warnings(), isOfIt)) logger(LogLevel::Warn, "{}.", slip);
+    }
+}
+
+/// Of what has come in the run. Where its first grains are tells nothing of a mesh: more may come.
+static void warnOfNewSlips(const Logger& logger, const ContactLaws& laws, GrainSizes sizes,
+                           const WallHandler& walls) {
+    const GrainSizes none;
+    sizes.lowest = none.lowest, sizes.highest = none.highest;
+    warnOfSlips(logger, laws, sizes, walls);
+}
+
 void Scene::Inside::check() {
     contextNow(stepLength());
     context.hasInlets = !scene.inletHandler.isEmpty();
@@ -168,6 +186,8 @@ void Scene::Inside::check() {
     checkedSizes = std::move(sizes);
     if (scene.hasBegun() && smallest < context.smallestRadius) contacts.setSmallestRadius(smallest);
     context.smallestRadius = std::min(context.smallestRadius, smallest);
+    if (scene.hasBegun() && scene.keepsWarnings())
+        warnOfNewSlips(scene.logger, laws(), checkedSizes, scene.wallHandler);
 }
 
 void Scene::Inside::prepare() {
@@ -202,8 +222,7 @@ void Scene::Inside::warn() const {
     const ParticleStore& grains = scene.particleHandler.store();
     if (const std::string remark = remarkOnFarGrains(grains); !remark.empty())
         logger(LogLevel::Warn, "{}.", remark);
-    for (const std::string& slip : likelySlips(laws(), checkedSizes, scene.wallHandler))
-        logger(LogLevel::Warn, "{}.", slip);
+    warnOfSlips(logger, laws(), checkedSizes, scene.wallHandler);
     warnOfEnergyGainOfSprings();
     if (!scene.isQuiet()) warnOfSeams();  // which may take a while
 }

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -80,6 +82,16 @@ TEST(Warnings, ofOverlapsComeOnceWithASummaryToo) {
         EXPECT_EQ(countOf(printedBy([&] { scene.solve(); }), ofOverlaps), 1u) << isPrinted;
         EXPECT_EQ(countOf(contentOf(folder.name() + "-summary.csv"), ofOverlaps.substr(9)), 1u);
     }
+}
+
+/// A program that goes no further, and ends later, as one of Python may, was told all the same.
+TEST(Warnings, ofOverlapsDoNotWaitForTheSummaryOfARunInParts) {
+    const TestFolder folder;
+    Fast scene;
+    scene.setName(folder.name());
+    scene.addOutput(RunSummary());
+    EXPECT_EQ(countOf(printedBy([&] { scene.runSteps(1500); }), ofOverlaps), 1u);
+    EXPECT_FALSE(scene.hasEnded());
 }
 
 /// A summary has what a quiet run did not show, in rows of one line: of the kernel and of the driver.
@@ -176,6 +188,32 @@ TEST(LikelySlips, areNotSeenWhereTheSceneIsRight) {
         EXPECT_EQ(toldOf<LiquidBridgeBagheri>(right), "");
 }
 
+/// Grains that a hook adds, or that are added between two parts; once, though more come, which are larger.
+TEST(LikelySlips, areToldOfWhatComesInTheRun) {
+    Simulation<Rough> scene;
+    Rough species = scenes::boxMaterial<Rough>(0);
+    auto* const glass = scene.speciesHandler.copyAndAddObject(species);
+    species.setDensity(2.5);
+    auto* const other = scene.speciesHandler.copyAndAddObject(species);
+    const auto add = [&](const Rough* own, double radius, double x) {
+        SphericalParticle grain(own);
+        grain.setRadius(radius);
+        grain.setPosition({x, 0, 0});
+        scene.particleHandler.copyAndAddObject(grain);
+    };
+    const auto told = [&] { return printedBy([&] { scene.runSteps(2); }); };
+    add(glass, 1e-3, 0);
+    scene.setTimeStep(1e-8);
+    EXPECT_EQ(told(), "");
+    add(other, 1e-3, 0.01);
+    const std::string first = told();
+    EXPECT_EQ(countOf(first, "Warning: "), 1u) << first;
+    EXPECT_TRUE(contains(first, "species 1: density = 2.5 kg/m^3")) << first;
+    add(other, 2e-3, 0.02);
+    EXPECT_EQ(told(), "");
+    EXPECT_EQ(scene.getNumberOfTimeSteps(), 6u);
+}
+
 TEST(LikelySlips, densitiesOfDiscsAreByArea) {
     Simulation<Rough> scene;
     scene.speciesHandler.setGrainsAreDiscs();
@@ -203,20 +241,31 @@ struct Named {
     ~Named() { setProgramName({}); }
 };
 
-TEST(OtherProgram, doesNotLoseItsRestartFileInSilence) {
-    if (!Hdf5File::isAvailable()) GTEST_SKIP() << "This build has no HDF5 library: restart is not tested.";
+struct Kept : scenes::SettlingBox<Rough> {
+    explicit Kept(const TestFolder& folder) : SettlingBox(1) {
+        setName(folder.name());
+        setTimeMax(20 * 0x1p-17);
+        keepRestartFile();
+    }
+};
+
+/// What a program of this name prints that runs there.
+std::string printedBy(const std::string& program, const TestFolder& folder) {
+    const Named named(program);
+    return printedBy([&] { Kept(folder).solve(); });
+}
+
+class OtherProgram : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!Hdf5File::isAvailable())
+            GTEST_SKIP() << "This build has no HDF5 library: restart is not tested.";
+    }
     const TestFolder folder;
-    const auto run = [&] {
-        scenes::SettlingBox<Rough> scene(1);
-        scene.setName(folder.name());
-        scene.setTimeMax(20 * 0x1p-17);
-        scene.keepRestartFile();
-        return printedBy([&] { scene.solve(); });
-    };
-    const auto of = [&](const std::string& program) {
-        const Named named(program);
-        return run();
-    };
+};
+
+TEST_F(OtherProgram, doesNotLoseItsRestartFileInSilence) {
+    const auto of = [&](const std::string& program) { return printedBy(program, folder); };
     EXPECT_EQ(of("Drum"), "");
     EXPECT_EQ(of("Drum"), "") << "its own files";
     const std::string first = contentOf(folder.name() + "-restart.h5");
@@ -227,6 +276,38 @@ TEST(OtherProgram, doesNotLoseItsRestartFileInSilence) {
     EXPECT_TRUE(contentOf(folder.name() + "-restart-of-Drum.h5") == first);
     EXPECT_TRUE(contains(contentOf(folder.name() + "-summary.csv"), "of another program"));
     EXPECT_EQ(of("Hopper"), "");
+}
+
+TEST_F(OtherProgram, doesNotLoseItToARunFromAnotherFile) {
+    EXPECT_EQ(printedBy("Drum", folder), "");
+    const std::string state = folder.name() + "-restart.h5", other = (folder.path() / "settled.h5").string();
+    std::filesystem::copy_file(state, other);
+    const std::string first = contentOf(state);
+    const Named hopper("Hopper");
+    Kept scene(folder);
+    scene.restartFrom(other);
+    EXPECT_TRUE(contains(printedBy([&] { scene.solve(); }), "run-restart-of-Drum.h5"));
+    EXPECT_TRUE(contentOf(folder.name() + "-restart-of-Drum.h5") == first);
+}
+
+TEST_F(OtherProgram, isToldByADriverThatStepsByItself) {
+    EXPECT_EQ(printedBy("Drum", folder), "");
+    const Named hopper("Hopper");
+    Kept scene(folder);
+    const std::string told = printedBy([&] {
+        scene.initialise();
+        scene.step(3);
+    });
+    EXPECT_EQ(countOf(told, "Warning: "), 1u) << told;
+    EXPECT_TRUE(contains(told, "of another program, Drum, and Hopper now")) << told;
+}
+
+/// A summary may say anything of its program.
+TEST_F(OtherProgram, keepsItsFileInTheFolder) {
+    std::ofstream(folder.name() + "-summary.csv") << "quantity,value,unit\nprogram,../../other,\n";
+    std::ofstream(folder.name() + "-restart.h5") << "its state";
+    EXPECT_TRUE(contains(printedBy("Hopper", folder), "of another program, ../../other, and Hopper now"));
+    EXPECT_EQ(contentOf(folder.name() + "-restart-of-..-..-other.h5"), "its state");
 }
 
 }  // namespace

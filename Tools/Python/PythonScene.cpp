@@ -318,7 +318,7 @@ void PythonScene::go(const std::function<void()>& part) {
     requireNoViews();
     const py::object kept = py::cast(this, py::return_value_policy::reference);
     self = kept;
-    raised = nullptr;
+    raised = nullptr, raisedByWarning = nullptr;
     isInterrupted = false;
     lastClock = Clock::now(), nextClock = 0;
     nextProgress = lastClock + progressInterval;
