@@ -163,8 +163,9 @@ public:
     }
     /// The same of a file; one of MercuryDPM's in text (MercuryRestart) is a start, from the time that it
     /// has, and a line of the log says what was taken over; setupInitialConditions() is not called after it.
-    /// For scenes of any species (Mercury3D).
-    void readRestartFile(const std::filesystem::path& file) {
+    /// For scenes of any species (Mercury3D) that have none yet. The name may lack its ending ".restart".
+    void readRestartFile(const std::filesystem::path& given) {
+        const std::filesystem::path file = withRestartEnding(given);
         if (!isMercuryRestart(file)) return this->restartFrom(file);
         takeOver(readMercuryRestart(file));
     }
@@ -304,7 +305,7 @@ std::vector<MercuryOption> MercuryScene<Types...>::options() {
          [this](const Values& v) {
              this->setGravity({v[0], v[1], v[2]});
          }},
-        {"-dim", 1, [this](const Values& v) { setSystemDimensions(static_cast<int>(v[0])); }}};
+        {"-dim", 1, [this](const Values& v) { setSystemDimensions(dimensionsOfOption("-dim", v[0])); }}};
     const auto addFile = [&](std::string_view name, MercuryFile& file) {
         all.push_back(
             {name, 1, [name, to = &file](const Values& v) { to->setSaveCount(stepsOfOption(name, v[0])); }});
@@ -335,6 +336,7 @@ void MercuryScene<Types...>::takeOver(const MercuryRestart& state) {
             "The restart file {} is one of MercuryDPM's, in text, with species of its own; take Mercury3D.",
             state.file.string()));
     } else {
+        requireNoSpecies(state, this->speciesHandler);
         requireTouchingBridges(state);
         setSystemDimensions(state.systemDimensions);
         setParticleDimensions(state.particleDimensions);
@@ -346,7 +348,7 @@ void MercuryScene<Types...>::takeOver(const MercuryRestart& state) {
         if (state.timeStep > 0) this->setTimeStep(state.timeStep);
         this->setTimeMax(state.timeMax);
         this->setSaveCount(state.saveCount);
-        if (!state.name.empty()) this->setName(state.name);
+        if (!state.name.empty()) this->setName(nameInFolder(state, Run::logger));
         const std::vector<std::size_t> walls = addWallsOf(state, this->speciesHandler, wallHandler);
         addBoundariesOf(state, boundaryHandler);
         takeHistoriesOver(state, pendular::addGrainsOf(state, this->speciesHandler, this->particleHandler),

@@ -22,13 +22,13 @@ port() {
         -e '/^[[:space:]]*(\/\/|\*)/b' \
         -e 's/([]A-Za-z0-9_)])\.(X|Y|Z)\b/\1.\l\2()/g' \
         -e 's/([]A-Za-z0-9_)])\.([XYZ])([XYZ])\b/\1(\x01\2, \x01\3)/g; s/\x01X/0/g; s/\x01Y/1/g; s/\x01Z/2/g' \
-        -e "s/Vec3D::dot\\($operand,[[:space:]]*$operand\\)/(\\1).dot(\\3)/g" \
-        -e "s/Vec3D::cross\\($operand,[[:space:]]*$operand\\)/(\\1).cross(\\3)/g" \
-        -e "s/Vec3D::getDistance\\($operand,[[:space:]]*$operand\\)/((\\1) - (\\3)).norm()/g" \
-        -e "s/Vec3D::getDistanceSquared\\($operand,[[:space:]]*$operand\\)/((\\1) - (\\3)).squaredNorm()/g" \
-        -e "s/Vec3D::getLength\\($operand\\)/(\\1).norm()/g" \
-        -e "s/Vec3D::getLengthSquared\\($operand\\)/(\\1).squaredNorm()/g" \
-        -e "s/Vec3D::getUnitVector\\($operand\\)/(\\1).normalized()/g" \
+        -e "s/Vec3D::dot[[:space:]]*\\($operand,[[:space:]]*$operand\\)/(\\1).dot(\\3)/g" \
+        -e "s/Vec3D::cross[[:space:]]*\\($operand,[[:space:]]*$operand\\)/(\\1).cross(\\3)/g" \
+        -e "s/Vec3D::getDistance[[:space:]]*\\($operand,[[:space:]]*$operand\\)/((\\1) - (\\3)).norm()/g" \
+        -e "s/Vec3D::getDistanceSquared[[:space:]]*\\($operand,[[:space:]]*$operand\\)/((\\1) - (\\3)).squaredNorm()/g" \
+        -e "s/Vec3D::getLength[[:space:]]*\\($operand\\)/(\\1).norm()/g" \
+        -e "s/Vec3D::getLengthSquared[[:space:]]*\\($operand\\)/(\\1).squaredNorm()/g" \
+        -e "s/Vec3D::getUnitVector[[:space:]]*\\($operand\\)/(\\1).normalized()/g" \
         -e 's/([]A-Za-z0-9_)])\.get(X|Y|Z)[[:space:]]*\(\)/\1.\l\2()/g' \
         -e 's/([]A-Za-z0-9_)])\.set(X|Y|Z)[[:space:]]*\(([^()]+(\([^()]*\))?)\)[[:space:]]*;/\1.\l\2() = \3;/g' \
         -e 's/([]A-Za-z0-9_)])\.getComponent[[:space:]]*\(([^()]+)\)/\1[\2]/g' \

@@ -12,6 +12,7 @@
 #include "Kernel/Contacts/ContactMigration.h"
 #include "Kernel/Contacts/FacePassage.h"
 #include "Kernel/Contacts/HeldMasses.h"
+#include "Kernel/Contacts/ParticleSum.h"
 #include "Kernel/Contacts/WakeBlock.h"
 #include "Kernel/Contacts/WallContacts.h"
 #include "Kernel/Math/ExactSum.h"
@@ -590,22 +591,10 @@ std::size_t ContactSystem::slotOf(const ObservedContact& seen) const {
             seen.particle1));
     return contacts.slotOf(seen.number);
 }
-/// As the kernel's own sums (ParticleSum.h) have it.
 GrainLoad ContactSystem::loadOn(const Grains& grains, std::uint32_t place) const {
-    GrainLoad load;
-    const ContactMemory& memory = contacts.memory;
-    const double radius = grains.translation[place].radius;
-    for (const std::uint32_t side : sidesOf(place)) {
-        const std::uint32_t slot = side / 2, contact = contacts.contactAt(slot);
-        if (!contacts.acts(contact)) continue;
-        const double sign = side % 2 == 0 ? 1 : -1;
-        load.force += sign * contacts.forceOf(contact);
-        if (!memory.getLayout().hasTorque) continue;
-        const ForceTorqueRecord record = memory.records[slot];
-        load.torque += (radius - record.halfOverlap) * record.leverless;
-        if (memory.getLayout().hasContactTorque) load.torque += sign * memory.torques[slot].torque;
-    }
-    return load;
+    if (place >= contacts.sides.grainCount()) return {};  // it came after the list
+    const ContactSum sum = contactSum(contacts, place, grains.translation[place].radius);
+    return {sum.force, sum.torque};
 }
 
 double ContactSystem::springLength(std::uint32_t contact) const {

@@ -29,6 +29,12 @@ std::size_t stepsOfOption(std::string_view option, double value) {
     return static_cast<std::size_t>(value);
 }
 
+int dimensionsOfOption(std::string_view option, double value) {
+    if (value != 2 && value != 3)
+        throw InputError(fmt::format("The option {} is {}; it must be 2 or 3.", option, value));
+    return static_cast<int>(value);
+}
+
 void takeArguments(Run& run, int argc, const char* const* argv, std::span<const MercuryOption> others,
                    const std::function<void(const std::filesystem::path&)>& restart) {
     std::vector<MercuryOption> options{
@@ -53,7 +59,7 @@ void takeArguments(Run& run, int argc, const char* const* argv, std::span<const 
             run.setName(std::string(valueOf(option)));
             continue;
         }
-        if (option == "-r") {
+        if (option == "-r" || option == "-restart") {
             const std::filesystem::path file = k + 1 < argc && argv[k + 1][0] != '-' ? argv[++k] : "";
             if (restart) restart(file);
             else run.restartFrom(file.empty() ? run.restartFile() : file);

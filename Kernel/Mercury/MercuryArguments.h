@@ -18,7 +18,8 @@ struct MercuryOption {
 
 /// Gives a run what solve(argc, argv) of MercuryDPM reads of a command line: -name NAME, -tmax SECONDS, -dt
 /// SECONDS, -saveCount STEPS (also -savecount, -save_count), -r (goes on from the restart file of its name)
-/// or -r FILE. Throws InputError for any other word, or for a value that is missing or no number.
+/// or -r FILE (also -restart). Throws InputError for any other word, or for a value that is missing or no
+/// number.
 /// @param others further options; @param restart called for -r, with an empty path where there is no FILE;
 /// none: the kernel's restartFrom()
 void takeArguments(Run& run, int argc, const char* const* argv, std::span<const MercuryOption> others = {},
@@ -26,5 +27,7 @@ void takeArguments(Run& run, int argc, const char* const* argv, std::span<const 
 
 /// A number of steps that was given as an option. Throws InputError for another number.
 [[nodiscard]] std::size_t stepsOfOption(std::string_view option, double value);
+/// 2 or 3. Throws InputError for another number.
+[[nodiscard]] int dimensionsOfOption(std::string_view option, double value);
 
 }  // namespace pendular

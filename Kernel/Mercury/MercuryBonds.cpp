@@ -43,7 +43,7 @@ void MercuryBonds::giveOne(StepContext& step, const Asked& asked) {
                                   : fmt::format("bond of particles {} and {}", pair.first, pair.second);
     const ParticleStore& grains = step.grains();
     bool isFound = false;
-    step.contacts.forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
+    const auto giveTo = [&](const Bucket& bucket, std::uint32_t contact) {
         const ObservedContact seen = step.contacts.observe(grains, bucket, contact);
         const bool isPair = pair.wall >= 0 ? seen.wall == pair.wall && seen.particle1 == pair.first
                                            : seen.wall < 0 && std::minmax(seen.particle1, seen.particle2) ==
@@ -56,7 +56,10 @@ void MercuryBonds::giveOne(StepContext& step, const Asked& asked) {
             asked.force >= 0 ? asked.force : step.contacts.adhesionNumberOf(seen, Numbers::attractionNumber);
         step.contacts.adhesionNumberOf(seen, Numbers::askedNumber) = 1;
         isFound = true;
-    });
+    };
+    // Of this grain alone: a restart file may have as many bonds as contacts.
+    if (const std::uint32_t place = grains.place[pair.first]; place != PlaceIndex::none)
+        step.contacts.forEachActingOf(place, giveTo);
     if (!isFound) throw InputError(owner + ": they must overlap.");
 }
 

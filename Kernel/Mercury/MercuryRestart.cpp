@@ -16,6 +16,13 @@ namespace {
 
 using Lines = MercuryRestartLines;
 
+/// Steps between two outputs; there 2^32 - 1 steps are never.
+std::size_t saveCountOf(const Lines& lines, std::string_view word, std::size_t standard) {
+    if (!lines.has(word)) return standard;
+    constexpr double never = 4294967295;
+    return lines.value(word) >= never ? 0 : lines.count(word);
+}
+
 /// The box, the times and the settings of the head, in all versions.
 void readHead(const Lines& lines, MercuryRestart& state) {
     const auto take = [&](std::initializer_list<std::string_view> names, double& to) {
@@ -37,9 +44,9 @@ void readHead(const Lines& lines, MercuryRestart& state) {
     dimensions("systemDimensions", state.systemDimensions);
     dimensions("dim", state.systemDimensions);
     dimensions("particleDimensions", state.particleDimensions);
-    if (lines.has("dataFile")) state.saveCount = lines.count("saveCount", 0);
-    state.saveCount = lines.count("save_count", state.saveCount);
-    state.saveCount = lines.count("save_count_data", state.saveCount);
+    if (lines.has("dataFile")) state.saveCount = saveCountOf(lines, "saveCount", 0);
+    for (const std::string_view word : {"save_count", "save_count_data"})
+        state.saveCount = saveCountOf(lines, word, state.saveCount);
     if (const double drag = lines.value("backgroundDrag", 0); drag != 0)
         lines.refuse(fmt::format(
             "backgroundDrag is {}, which is not taken over; give it by computeExternalForces()", drag));
@@ -48,13 +55,31 @@ void readHead(const Lines& lines, MercuryRestart& state) {
 }
 
 /// The first line: MercuryDPM VERSION name NAME ..., or restart_version N name NAME, the name also in the
-/// next line.
-void readTitle(const Lines& lines, MercuryRestart& state) {
-    if (lines.all().size() > 1 && (lines.first() == "MercuryDPM" || lines.first() == "restart_version")) {
-        state.version = lines.all()[1];
-        if (state.version != "2" && state.version != "3") return;
-        state.digits = 8;
-    }
+/// next line. Returns whether it is one of the two: a name may be any word, also one of the head.
+bool readTitle(const Lines& lines, MercuryRestart& state) {
+    const bool hasVersion = lines.first() == "MercuryDPM" || lines.first() == "restart_version";
+    if (hasVersion && lines.all().size() > 1) state.version = lines.all()[1];
+    return hasVersion || lines.first() == "name";
+}
+
+/// Whether a line outside of the sections is one of the objects that they have.
+bool isOfSection(const Lines& lines, const MercuryRestart& state) {
+    const std::string_view word = lines.first();
+    if (state.version == "2" || state.version == "3")
+        return word == "TSP" || word == "BP" || word == "DMP" || word == "normal" ||
+               word == "numFiniteWalls" || word.ends_with("Wall") || word.ends_with("Boundary") ||
+               lines.countAt(0) > 0;
+    const bool isPlaced = lines.has("radius") || lines.has("normal") || lines.has("orientation");
+    return lines.has("particleIds") || lines.has("particleWallIds") || (lines.has("position") && isPlaced) ||
+           word.ends_with("Boundary");
+}
+
+/// Counts a line that is passed over. Of a text that has nothing else only the first words are kept.
+void passOver(const Lines& lines, MercuryRestart& state) {
+    constexpr std::size_t most = 99;
+    const std::string word = shownName(lines.first());
+    if (state.passedOver.size() < most || state.passedOver.contains(word)) ++state.passedOver[word];
+    else ++state.passedOver["others"];
 }
 
 /// Lines of the head that say nothing of the state: the files that were written.
@@ -93,12 +118,14 @@ private:
                 "particles of the section FixedParticles are not in the file; add them in the driver");
         if (word == "Interactions") return section([&] { objects.addInteraction(lines); });
         if (!hasSpecies) {
-            readTitle(lines, state);
+            const bool isTitle = readTitle(lines, state);
             if (const auto at = lines.behind("name"); at && *at < lines.all().size() && !isOfFiles(word))
                 state.name = lines.all()[*at];
-            readHead(lines, state);
+            if (!isTitle) readHead(lines, state);
+        } else if (isOfSection(lines, state)) {
+            lines.refuse("this object is beyond the number that its section begins with");
         } else if (word != "FixedParticles") {
-            ++state.passedOver[shownName(word)];
+            passOver(lines, state);
         }
     }
     /// So many species, and the pairs of them wherever they stand between and behind them.
@@ -137,6 +164,14 @@ bool isMercuryRestart(const std::filesystem::path& path) {
     std::string word;
     file.width(64);  // of a file without blanks no more than this is read
     return file >> word && (word == "restart_version" || word == "MercuryDPM");
+}
+
+std::filesystem::path withRestartEnding(const std::filesystem::path& file) {
+    std::error_code problem;
+    std::filesystem::path longer = file;
+    longer += ".restart";
+    const bool isShort = !std::filesystem::exists(file, problem) && std::filesystem::exists(longer, problem);
+    return isShort ? longer : file;
 }
 
 MercuryRestart readMercuryRestart(const std::filesystem::path& path) { return Reader(path).read(); }

@@ -71,7 +71,6 @@ struct MercuryRestart {
     double timeStep = 0, time = 0, timeMax = 0;                                      // s
     int systemDimensions = 3, particleDimensions = 3;
     std::size_t saveCount = 0;
-    int digits = 15;  // with which numbers are written
     std::vector<Species> species;
     std::vector<Pair> pairs;
     std::vector<Wall> walls;
@@ -79,7 +78,7 @@ struct MercuryRestart {
     std::vector<Deletion> deletions;
     std::vector<Grain> grains;
     std::vector<History> histories;
-    std::map<std::string, std::size_t> passedOver;  // by the word with which the line begins
+    std::map<std::string, std::size_t> passedOver;  // by the word with which the line begins; a hundred
 
     /// What was read, and what was passed over, in one line.
     [[nodiscard]] std::string summary() const;
@@ -89,6 +88,8 @@ struct MercuryRestart {
 
 /// Whether a file begins as one of these does.
 bool isMercuryRestart(const std::filesystem::path& file);
+/// The file of this name, or with the ending .restart where only that is there.
+std::filesystem::path withRestartEnding(const std::filesystem::path& file);
 /// Throws InputError with the file, the line and the reason.
 MercuryRestart readMercuryRestart(const std::filesystem::path& file);
 

@@ -16,14 +16,21 @@ std::string shownName(std::string_view word) {
     return isName ? std::string(word) : shown(word);
 }
 
+/// Of a line: those of a wall of many planes have some thousands.
+static constexpr std::size_t mostWords = 1'000'000;
+
 bool MercuryRestartLines::next() {
     words.clear();
     while (words.empty() && at < file->text.size()) {
         const std::size_t end = std::min(file->text.find('\n', at), file->text.size());
         Words row(std::string_view(file->text).substr(at, end - at));
-        for (std::string_view word = row.next(); !word.empty(); word = row.next()) words.push_back(word);
         at = end + 1;
         ++line;
+        for (std::string_view word = row.next(); !word.empty(); word = row.next()) {
+            if (words.size() == mostWords)
+                refuse(fmt::format("it has more than {} words, which no line has", mostWords));
+            words.push_back(word);
+        }
     }
     return !words.empty();
 }
@@ -53,11 +60,29 @@ std::size_t MercuryRestartLines::countAt(std::size_t place) const {
     return count;
 }
 
-double MercuryRestartLines::numberAt(std::size_t place) const {
+double MercuryRestartLines::parameterAt(std::size_t place) const {
     double value = 0;
     if (place >= words.size()) refuse("a number is missing at its end");
     if (!parseNumber(words[place], value)) refuse(whyNoNumber(words[place]));
     return value;
+}
+
+std::string MercuryRestartLines::keywordOf(std::size_t place) const {
+    for (double unused = 0; place > 0 && parseNumber(words[place - 1], unused);) --place;
+    return place > 0 ? shownName(words[place - 1]) : std::string("a number");
+}
+
+double MercuryRestartLines::numberAt(std::size_t place) const {
+    const double value = parameterAt(place);
+    if (!std::isfinite(value)) refuse(fmt::format("{} is {}; it must be finite", keywordOf(place), value));
+    return value;
+}
+
+std::uint64_t MercuryRestartLines::wholeAt(std::size_t place) const {
+    const double found = numberAt(place);
+    if (!(found >= 0 && found < 1e9 && found == std::floor(found)))
+        refuse(fmt::format("{} is {}; it must be a whole number from 0 to 1e9", keywordOf(place), found));
+    return static_cast<std::uint64_t>(found);
 }
 
 Vec3D MercuryRestartLines::vectorAt(std::size_t place) const {
@@ -71,11 +96,9 @@ double MercuryRestartLines::value(std::string_view word, std::optional<double> s
 }
 
 std::uint64_t MercuryRestartLines::count(std::string_view word, std::optional<std::uint64_t> standard) const {
-    if (standard && !has(word)) return *standard;
-    const double found = value(word);
-    if (!(found >= 0 && found < 1e9 && found == std::floor(found)))
-        refuse(fmt::format("{} is {}; it must be a whole number from 0 to 1e9", word, found));
-    return static_cast<std::uint64_t>(found);
+    if (const auto place = behind(word)) return wholeAt(*place);
+    if (!standard) refuse(fmt::format("'{}' is missing", word));
+    return *standard;
 }
 
 Vec3D MercuryRestartLines::vector(std::string_view word, std::optional<Vec3D> standard) const {
@@ -118,7 +141,7 @@ void MercuryRestartLines::refuseOthers(std::string_view what,
         double value = 0;
         if (parseNumber(words[k], value) || std::ranges::count(known, words[k]) > 0) continue;
         const std::size_t count = countAt(k + 1);
-        for (std::size_t n = 0; n < count && value == 0; ++n) value = numberAt(k + 1 + n);
+        for (std::size_t n = 0; n < count && value == 0; ++n) value = parameterAt(k + 1 + n);
         if (value == 0 && count > 0) continue;
         refuse(fmt::format("{} has '{}'{}, which is not taken over", what, shownName(words[k]),
                            count > 0 ? fmt::format(" = {}", value) : std::string()));

@@ -22,7 +22,8 @@ class MercuryRestartLines {
 public:
     explicit MercuryRestartLines(const InputFile& of) : file(&of) {}
 
-    /// The next line that is not empty; false at the end of the file.
+    /// The next line that is not empty; false at the end of the file. Throws for one of more words than any
+    /// has.
     bool next();
     /// The same; throws InputError at the end of the file.
     void require();
@@ -36,7 +37,12 @@ public:
     [[nodiscard]] std::optional<std::size_t> behindLast(std::string_view word) const;
     /// How many numbers follow from a place on.
     [[nodiscard]] std::size_t countAt(std::size_t place) const;
+    /// Throws for nan and infinity, which the text of MercuryDPM's has where a run went wrong.
     [[nodiscard]] double numberAt(std::size_t place) const;
+    /// The same, for parameters that may be infinite.
+    [[nodiscard]] double parameterAt(std::size_t place) const;
+    /// The same, of a number of things, or of one of them.
+    [[nodiscard]] std::uint64_t wholeAt(std::size_t place) const;
     [[nodiscard]] Vec3D vectorAt(std::size_t place) const;
     /// The value behind a word; the standard one where the word is not there.
     [[nodiscard]] double value(std::string_view word, std::optional<double> standard = {}) const;
@@ -56,6 +62,9 @@ public:
     [[noreturn]] void refuse(std::string_view reason) const;
 
 private:
+    /// The word whose value a place has, for messages.
+    [[nodiscard]] std::string keywordOf(std::size_t place) const;
+
     const InputFile* file;
     std::vector<std::string_view> words;
     std::size_t at = 0, line = 0;

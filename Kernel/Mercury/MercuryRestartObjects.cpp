@@ -45,11 +45,12 @@ bool isOfOtherSintering(std::string_view word) {
 /// of rolling or torsion that is another one.
 bool hasNoEffect(const Lines& lines, std::size_t word) {
     const std::string_view name = lines.all()[word];
-    const double value = lines.numberAt(word + 1);
+    const double value = lines.parameterAt(word + 1);
     if (isOfOtherSintering(name)) return value == 0;
     const auto coefficient = [&](std::string_view of) -> std::optional<double> {
         if (of == "slidingFrictionCoefficient" && !lines.has(of)) of = "frictionCoefficient";
-        return lines.has(of) ? std::optional(lines.value(of)) : std::nullopt;
+        const auto place = lines.behind(of);
+        return place ? std::optional(lines.parameterAt(*place)) : std::nullopt;
     };
     if (name == "slidingStiffness") return value == 0 && coefficient("slidingFrictionCoefficient") == 0.0;
     constexpr std::string_view end = "Static";
@@ -67,13 +68,16 @@ bool hasNoEffect(const Lines& lines, std::size_t word) {
 MercuryRestart::Species speciesOf(const Lines& lines) {
     std::string type(lines.first());
     if (const auto at = type.find("MixedSpecies"); at != type.npos) type.erase(at, 5);
+    constexpr std::size_t mostWords = 1000;
+    if (lines.all().size() > mostWords)
+        lines.refuse(fmt::format("it has more than {} words, which no species has", mostWords));
     MercuryRestart::Species species{canonicalLawName(type), {}, lines.number()};
     for (std::size_t k = 1; k < lines.all().size();) {
         const std::string_view word = lines.all()[k];
         const std::size_t count = lines.countAt(k + 1);
         if (count == 0) lines.refuse(fmt::format("'{}' has no number behind it", shownName(word)));
         if (word != "id" && word != "idA" && word != "idB" && word != "idMixed" && !hasNoEffect(lines, k))
-            species.fields.emplace_back(fieldOf(word, species.type), lines.numberAt(k + 1));
+            species.fields.emplace_back(fieldOf(word, species.type), lines.parameterAt(k + 1));
         k += 1 + count;
     }
     return species;
@@ -105,8 +109,10 @@ SolidFace faceOfPlane(const Lines& lines) {
 
 /// The planes of a wall of several, each with a position and an orientation (older: a normal).
 std::vector<SolidFace> facesOf(const Lines& lines) {
-    const std::uint64_t count = lines.count("numIntersectionOfWalls");
-    std::size_t at = *lines.behind("numIntersectionOfWalls") + 1;
+    const std::string_view word =
+        lines.has("numIntersectObjects") ? "numIntersectObjects" : "numIntersectionOfWalls";
+    const std::uint64_t count = lines.count(word);
+    std::size_t at = *lines.behind(word) + 1;
     std::vector<SolidFace> faces;
     for (std::uint64_t k = 0; k < count; ++k) {
         if (at >= lines.all().size()) lines.refuse(fmt::format("{} of its {} planes are there", k, count));
@@ -161,6 +167,12 @@ MercuryRestart::Period periodOf(const Lines& lines) {
     return period;
 }
 
+constexpr std::size_t several = ~std::size_t{0};  // the place of an id that more than one has
+
+void note(std::unordered_map<std::uint64_t, std::size_t>& places, std::uint64_t id, std::size_t place) {
+    if (const auto [at, isNew] = places.try_emplace(id, place); !isNew) at->second = several;
+}
+
 /// A parameter of a deletion boundary that must be as it is here.
 void requireActive(const Lines& lines) {
     if (lines.value("isActivated", 1) == 0)
@@ -183,8 +195,7 @@ bool MercuryRestartObjects::addSpecies(const MercuryRestartLines& lines) {
         MercuryRestart::Pair pair{0, 0, speciesOf(lines)};
         std::erase_if(pair.laws.fields, [](const auto& field) { return field.first == "density"; });
         if (const auto at = lines.behind("idMixed"))
-            pair.a = static_cast<std::size_t>(lines.numberAt(*at)),
-            pair.b = static_cast<std::size_t>(lines.numberAt(*at + 1));
+            pair.a = lines.wholeAt(*at), pair.b = lines.wholeAt(*at + 1);
         else if (lines.has("idA")) pair.a = lines.count("idA"), pair.b = lines.count("idB");
         else if (state->species.size() == 2) pair.a = 1;  // an early form, without a name for it
         else lines.refuse("it is not said which two species this one is of");
@@ -202,9 +213,9 @@ void MercuryRestartObjects::addWall(const MercuryRestartLines& lines) {
     using Shape = MercuryRestart::Wall::Shape;
     // Walls that only pictures have follow this word.
     if (!lines.has("renderedWalls"))
-        lines.refuseOthers(
-            "the wall", {"id", "indSpecies", "position", "orientation", "velocity", "angularVelocity",
-                         "force", "torque", "normal", "factor", "vtkVisibility", "numIntersectionOfWalls"});
+        lines.refuseOthers("the wall", {"id", "indSpecies", "position", "orientation", "velocity",
+                                        "angularVelocity", "force", "torque", "normal", "factor",
+                                        "vtkVisibility", "numIntersectionOfWalls", "numIntersectObjects"});
     else if (wall.shape != Shape::Plane)
         lines.refuse("the wall has 'renderedWalls', which are not taken over");
     wall.velocity = lines.vector("velocity", Vec3D::Zero());
@@ -221,7 +232,7 @@ void MercuryRestartObjects::addWall(const MercuryRestartLines& lines) {
             for (SolidFace& face : wall.faces)
                 face = {lines.turnedAt(turn, face.normal), lines.turnedAt(turn, face.point)};
     }
-    placesOfWalls[wall.id] = state->walls.size();
+    note(placesOfWalls, wall.id, state->walls.size());
     state->walls.push_back(std::move(wall));
 }
 
@@ -256,7 +267,9 @@ void MercuryRestartObjects::addGrain(const MercuryRestartLines& lines) {
                        {"id", "indSpecies", "position", "orientation", "velocity", "angularVelocity", "force",
                         "torque", "radius", "invMass", "invInertia", "timeStamp", "liquidVolume"});
     constexpr double unsetMass = -1;
-    placesOfGrains[lines.count("id", state->grains.size())] = state->grains.size();
+    if (lines.value("invMass", 0) < 0)
+        lines.refuse(fmt::format("invMass is {}; it must be at least 0", lines.value("invMass")));
+    note(placesOfGrains, lines.count("id", state->grains.size()), state->grains.size());
     state->grains.push_back({.row = {.radius = lines.value("radius"),
                                      .position = lines.vector("position"),
                                      .velocity = lines.vector("velocity"),
@@ -279,9 +292,10 @@ void MercuryRestartObjects::addInteraction(const MercuryRestartLines& lines) {
     const auto placeOf = [&](const Places& places, std::size_t at) {
         const double id = lines.numberAt(at);
         const auto found = id >= 0 && id < 1e18 ? places.find(static_cast<std::uint64_t>(id)) : places.end();
-        if (found == places.end())
-            lines.refuse(fmt::format("there is no {} with the id {}",
-                                     &places == &placesOfWalls ? "wall" : "particle", id));
+        const std::string_view kind = &places == &placesOfWalls ? "wall" : "particle";
+        if (found == places.end()) lines.refuse(fmt::format("there is no {} with the id {}", kind, id));
+        if (found->second == several)
+            lines.refuse(fmt::format("there is more than one {} with the id {}", kind, id));
         return found->second;
     };
     const MercuryRestart::History contact{

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <string_view>
 
 #include "Kernel/Mercury/MercuryRestartObjects.h"
@@ -46,8 +47,8 @@ public:
     /// @param read called with the place of the numbers of each that has not ended by the time (s)
     template <class Read>
     void forEach(std::size_t numbers, double time, Read&& read) {
-        const double count = lines.numberAt(at++);
-        for (double k = 0; k < count; ++k, at += numbers)
+        const std::uint64_t count = lines.wholeAt(at++);
+        for (std::uint64_t k = 0; k < count; ++k, at += numbers)
             if (lines.numberAt(at + numbers - 1) >= time) read(at, at + numbers - 3);
     }
 
@@ -73,7 +74,7 @@ void MercuryRestartObjects::addOldSpecies(const MercuryRestartLines& lines) {
         const std::string_view word = lines.all()[k];
         const double value = lines.numberAt(k + 1);
         if (word == "dim_particle") {
-            if (!isPair) state->particleDimensions = static_cast<int>(value);
+            if (!isPair) state->particleDimensions = static_cast<int>(lines.wholeAt(k + 1));
             continue;
         }
         const auto field = std::ranges::find(oldFields, word, &OldField::old);
@@ -108,21 +109,21 @@ void MercuryRestartObjects::addOldGrain(const MercuryRestartLines& lines) {
             lines.refuse(fmt::format("particles of the type '{}' are not taken over", shownName(word)));
     }
     const bool hasSpecies = state->version != "2";
+    if (lines.numberAt(at + 13) < 0) lines.refuse("the inverse of its mass is less than 0");
     const std::size_t self = state->grains.size();
     state->grains.push_back({.row = {.radius = lines.numberAt(at + 6),
                                      .position = lines.vectorAt(at),
                                      .velocity = lines.vectorAt(at + 3),
                                      .angularVelocity = lines.vectorAt(at + 10),
-                                     .type = hasSpecies ? static_cast<int>(lines.numberAt(at + 15)) + 1 : 1},
+                                     .type = hasSpecies ? static_cast<int>(lines.wholeAt(at + 15)) + 1 : 1},
                              .id = self,
                              .inverseMass = lines.numberAt(at + 13),
                              .line = lines.number()});
     // Each is of the particle that has it, against the particle or the wall with this number.
     const auto history = [&](std::size_t partner) {
         MercuryRestart::History one{.first = self, .line = lines.number()};
-        const double particle = lines.numberAt(partner), wall = lines.numberAt(partner + 1);
-        one.isWithWall = particle < 0;
-        one.second = static_cast<std::size_t>(std::max(0.0, one.isWithWall ? wall : particle));
+        one.isWithWall = lines.numberAt(partner) < 0;
+        one.second = lines.wholeAt(one.isWithWall ? partner + 1 : partner);
         return one;
     };
     OldContacts contacts(lines, at + (hasSpecies ? 16 : 15));

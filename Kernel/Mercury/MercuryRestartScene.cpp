@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "Kernel/Base/FullStop.h"
 #include "Kernel/Contacts/SpeciesRegistry.h"
+#include "Kernel/Files/FileName.h"
 #include "Kernel/Math/EigenConversion.h"
 #include "Kernel/Mercury/MercuryRestartLines.h"
 
@@ -86,6 +89,27 @@ double gapOf(const MercuryRestart& state, const MercuryRestart::History& one) {
 }
 
 }  // namespace
+
+void requireNoSpecies(const MercuryRestart& state, const SeveralSpeciesHandler& species) {
+    if (species.isEmpty()) return;
+    throw InputError(fmt::format(
+        "The restart file {} has species of its own, and the scene has {} already; read it into a scene "
+        "without species, and add what else the scene has after it.",
+        state.file.string(), species.getSize()));
+}
+
+std::string nameInFolder(const MercuryRestart& state, const Logger& logger) {
+    const std::filesystem::path name = state.name;
+    const bool leadsOut = name.is_absolute() || std::any_of(name.begin(), name.end(),
+                                                            [](const auto& part) { return part == ".."; });
+    if (!leadsOut) return state.name;
+    logger(
+        LogLevel::Warn,
+        "The name '{}' of the restart file leads out of this folder; the run is named '{}', or as setName() "
+        "says.",
+        printable(state.name), printable(name.filename().string()));
+    return name.filename().string();
+}
 
 void addSpeciesOf(const MercuryRestart& state, SeveralSpeciesHandler& species) {
     for (const MercuryRestart::Species& one : state.species) requireType(state, one);

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "Kernel/Base/Logger.h"
 #include "Kernel/Contacts/SeveralSpeciesHandler.h"
 #include "Kernel/Mercury/MercuryBonds.h"
 #include "Kernel/Mercury/MercuryBoundaries.h"
@@ -15,6 +17,11 @@
 
 namespace pendular {
 
+/// Throws InputError for a scene that has species: those of the file have numbers from 0 on.
+void requireNoSpecies(const MercuryRestart& state, const SeveralSpeciesHandler& species);
+/// The name of the run. One that leads out of the folder in which the program runs is cut to its last part,
+/// with a warning: whoever wrote the file does not choose where this program writes.
+std::string nameInFolder(const MercuryRestart& state, const Logger& logger);
 void addSpeciesOf(const MercuryRestart& state, SeveralSpeciesHandler& species);
 /// Returns the numbers of the walls. After the box is set.
 std::vector<std::size_t> addWallsOf(const MercuryRestart& state, const SeveralSpeciesHandler& species,

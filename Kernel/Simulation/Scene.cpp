@@ -39,6 +39,7 @@ Scene::Scene() : inside(std::make_unique<Inside>(*this)) {
     ParticleHandler::Inside::callToCountAll(particleHandler,
                                             [this] { return inside->sharing->countOfAll(); });
     ParticleHandler::Inside::callForLoads(particleHandler, [this](std::uint32_t place) {
+        warnOfUnlistedContacts();
         return inside->contacts.loadOn(inside->context.grains(), place);
     });
     wallHandler.callBeforeRemoval([this](int wall) {

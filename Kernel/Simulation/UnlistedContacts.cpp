@@ -93,7 +93,7 @@ std::string UnlistedContacts::lookFor(const ContactSystem& contacts, const Parti
     hasWarned = true;
     return fmt::format(
         "{} and {} overlap and are held along all axes: their contact is not listed, so that "
-        "interactions(), interactionsOf() and contactForceOn() do not have it; take "
+        "interactions(), interactionsOf(), contactForceOn(), getForce() and getTorque() do not have it; take "
         "setHeldContacts(HeldContacts::All) to list such contacts, or HeldContacts::None to leave them out "
         "without this warning",
         both->first, both->second);

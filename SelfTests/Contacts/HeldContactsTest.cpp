@@ -1,6 +1,7 @@
 // Contacts between bodies that are held along all axes: where something needs them, and nowhere else.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -109,7 +110,58 @@ public:
     std::vector<std::string> told;
 };
 
+/// The forces and torques of all held grains.
+std::vector<Vec3D> loadsOfHeld(Scene& scene) {
+    std::vector<Vec3D> all;
+    for (const GrainReference grain : scene.particleHandler)
+        if (grain.isFixed()) all.push_back(grain.getForce()), all.push_back(grain.getTorque());
+    return all;
+}
+
 // --- Asked for
+
+// Before the run there are none; on several ranks, when all grains are together, they are those of one.
+TEST(HeldContacts, giveForceAndTorqueToGrains) {
+    constexpr std::size_t steps = 40;
+    Driven alone;
+    for (const Vec3D& load : loadsOfHeld(alone)) EXPECT_EQ(load, Vec3D::Zero());
+    alone.initialise();
+    alone.step(steps);
+    const std::vector<Vec3D> expected = loadsOfHeld(alone);
+    ASSERT_EQ(expected.size(), 256u);
+    double force = 0, torque = 0;
+    for (std::size_t k = 0; k < expected.size(); k += 2) {
+        force = std::max(force, expected[k].norm()), torque = std::max(torque, expected[k + 1].norm());
+        EXPECT_LT((expected[k] - alone.contactForceOn(k / 2)).norm(), 1e-12);
+    }
+    EXPECT_GT(force, 1e-4);
+    EXPECT_GT(torque, 1e-8);
+    VirtualRanks(3).run([&](Exchange& exchange) {
+        Driven scene;
+        scene.setRanks(exchange, {});
+        scene.initialise();
+        scene.step(steps);
+        scene.gather();
+        const std::vector<Vec3D> found = loadsOfHeld(scene);
+        ASSERT_EQ(found.size(), expected.size());
+        for (std::size_t k = 0; k < found.size(); k += 2) {
+            EXPECT_LT((found[k] - expected[k]).norm(), 1e-12 * force) << k / 2;
+            EXPECT_LT((found[k + 1] - expected[k + 1]).norm(), 1e-12 * torque) << k / 2;
+        }
+    });
+}
+
+// A force that lacks a contact which is not listed says so, as interactions() does.
+TEST(HeldContacts, areToldOfWhereAForceLacksThem) {
+    const Lines lines;
+    FewGrains<Linear> scene(linear(), heldPair(), dt);
+    ready(scene).setQuiet(false);
+    scene.run(3);
+    EXPECT_TRUE(lines.told.empty());
+    EXPECT_EQ(scene.particleHandler.getObject(0).getForce(), Vec3D::Zero());
+    ASSERT_EQ(lines.told.size(), 1u);
+    EXPECT_TRUE(support::contains(lines.told[0], "getForce() and getTorque() do not have it"));
+}
 
 TEST(HeldContacts, haveTheForceOfTheirOverlap) {
     FewGrains<Linear> scene(linear(), heldPair(), dt);
@@ -354,7 +406,8 @@ TEST(HeldContacts, areNotListedWhereNothingNeedsThem) {
     EXPECT_EQ(
         lines.told[0],
         "particle 0 and particle 1 overlap and are held along all axes: their contact is not listed, so "
-        "that interactions(), interactionsOf() and contactForceOn() do not have it; take "
+        "that interactions(), interactionsOf(), contactForceOn(), getForce() and getTorque() do not have it; "
+        "take "
         "setHeldContacts(HeldContacts::All) to list such contacts, or HeldContacts::None to leave them "
         "out without this warning.");
 }

@@ -219,7 +219,7 @@ TEST(MercuryNames, theScriptMakesTheMechanicalChanges) {
               "void computeExternalForces(MercuryForcedGrain p) override"},
              {"void computeExternalForces (BaseParticle *CI)",
               "void computeExternalForces(MercuryForcedGrain CI)"},
-             {"Vec3D::getDistance(p->getPosition() - o, q) + Vec3D::getDistanceSquared(a, b)",
+             {"Vec3D::getDistance (p->getPosition() - o, q) + Vec3D::getDistanceSquared(a, b)",
               "((p->getPosition() - o) - (q)).norm() + ((a) - (b)).squaredNorm()"},
              {"Vec3D::getLength(a + f(b)) * Vec3D::getUnitVector(c) + Vec3D::getLengthSquared(d)",
               "(a + f(b)).norm() * (c).normalized() + (d).squaredNorm()"},

@@ -6,6 +6,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "Kernel/Contacts/SpeciesRegistry.h"
@@ -488,6 +489,81 @@ TEST(MercuryRestart, saysWhatItDoesNotTakeOver) {
     Restarted scene(start + noWalls + two + contact + "slidingSpring 0 1e-9 0\n");
     const std::string spring = refusal([&] { scene.initialise(); });
     EXPECT_TRUE(isOneSentence(spring) && contains(spring, "particles 0 and 1")) << spring;
+}
+
+// Damaged texts, and such as were made to do harm: one sentence each, whatever their numbers are.
+TEST(MercuryRestart, damagedTextsAreRefused) {
+    const auto said = [&](const std::string& text) { return refusal([&] { Restarted scene(text); }); };
+    const std::string start = head + oneSpecies, one = particle(0, "0 0 0"), other = particle(0, "0.99 0 0"),
+                      contact = "Interactions 1\nLinearViscoelasticInteraction particleIds 0 0 ",
+                      old =
+                          "name old\nxmin 0 xmax 3\ndt 0.001 t 0.5 tmax 1\nSpecies 1\nk 1000 disp 0 rho 3 "
+                          "dim_particle 3\nWalls 0\nParticles 1\n";
+    for (const auto& [text, phrase] : std::vector<std::pair<std::string, std::string>>{
+             {start + noWalls + "Particles 999999999\n" + one, "the file ends here"},
+             {start + noWalls + "Particles 1e300\n", "Particles is 1e+300"},
+             {start + noWalls + "Particles nan\n", "Particles is nan; it must be finite"},
+             {start + noWalls + "Particles 1\n" + particle(0, "0 nan 0"), "position is nan"},
+             {start + noWalls + "Particles 1\n" + particle(0, "0 0 0", "invMass -1"), "invMass is -1"},
+             {start + noWalls + "Particles 1\n" + particle(0, "0 0 0", "invMass inf"), "invMass is inf"},
+             {start + noWalls + "Particles 1\n" + one + particle(1, "2 0 0"), "beyond the number"},
+             {start + noWalls + "Particles 2\n" + one + other + contact,
+              "more than one particle with the id 0"},
+             {start + noWalls + "Particles 1\n" + one + contact + "slidingSpring 0 nan 0\n",
+              "slidingSpring is nan"},
+             {start + "Walls 1\nIntersectionOfWalls id 0 indSpecies 0 position 0 0 0 orientation 1 0 0 0 "
+                      "numIntersectionOfWalls 999999999\n",
+              "0 of its 999999999 planes"},
+             {head + "Species 1\nLinearViscoelasticSpecies id 0 density nan stiffness 1\n" + noWalls +
+                  "Particles 0\n",
+              "density"},
+             {start + "LinearViscoelasticMixedSpecies idMixed -1 1e300 stiffness 3\n", "idMixed is -1"},
+             {"MercuryDPM 1.0 name S\ntimeStep nan\n", "timeStep is nan"},
+             {"restart_version 2\n" + old + "1 1 1 0 0 0 0.5 0 0 0 0 0 0 0 0 1e300\n", "1e+300"},
+             {"restart_version 3\n" + old + "BP 1 1 1 0 0 0 0.5 0 0 0 0 0 0 0 0 -3\n", "is -3"}}) {
+        const std::string found = said(text);
+        EXPECT_TRUE(isOneSentence(found) && contains(found, phrase)) << text << found;
+    }
+    // A long line, and a text of many words that are passed over.
+    std::string many = start + noWalls + "Particles 0\n";
+    for (int k = 0; k < 1000; ++k) many += fmt::format("word{} 1\n", k);
+    TestFolder folder;
+    helpers::writeToFile(folder.name(), many);
+    const MercuryRestart read = readMercuryRestart(folder.name());
+    EXPECT_EQ(read.passedOver.size(), 100u);
+    EXPECT_EQ(read.passedOver.at("others"), 901u);
+    std::string line = "MercuryDPM 1.0 name S\n";
+    for (int k = 0; k <= 1'000'000; ++k) line += "0 ";
+    const std::string tooLong = said(line + "\n");
+    EXPECT_TRUE(isOneSentence(tooLong) && contains(tooLong, "line 2")) << tooLong;
+}
+
+// What real files have that no other test does: outputs that are never written, and names of runs.
+TEST(MercuryRestart, headsOfAllKinds) {
+    const TestFolder folder;
+    const std::string file = folder.name() + ".restart", rest = oneSpecies + noWalls + "Particles 0\n";
+    const auto nameIn = [&](const std::string& first, const std::string& now) {
+        std::string text = head + rest;
+        text.replace(text.find(first), first.size(), now);
+        helpers::writeToFile(file, text);
+        Mercury3D scene;
+        scene.setQuiet();
+        scene.readRestartFile(folder.name());  // the ending may be left out, as there
+        return scene.getName();
+    };
+    EXPECT_EQ(nameIn("saveCount 20", "saveCount 4294967295"), "Small");
+    EXPECT_EQ(nameIn("name Small", "name time"), "time");
+    EXPECT_EQ(nameIn("name Small", "name runs/Small"), "runs/Small");
+    // Whoever wrote the file does not choose where this program writes.
+    for (const char* const name : {"/other/Small", "../other/Small", "runs/../../Small"})
+        EXPECT_EQ(nameIn("name Small", fmt::format("name {}", name)), "Small");
+    // Species by their numbers in the file: there must be no others.
+    Mercury3D scene;
+    LinearViscoelasticSpecies own;
+    own.setDensity(1), own.setStiffness(1);
+    scene.speciesHandler.copyAndAddObject(own);
+    const std::string said = refusal([&] { scene.readRestartFile(file); });
+    EXPECT_TRUE(isOneSentence(said) && contains(said, "the scene has 1 already")) << said;
 }
 
 // A line of the log says what was read, and what was passed over.

@@ -28,6 +28,7 @@ def test_held_grains_have_a_force_where_it_is_asked_for():
     scene.set_held_contacts("all")
     scene.run(steps=2)
     assert scene.contact_force[:, 0] == pytest.approx([-FORCE, FORCE], rel=1e-9)
+    assert scene.force[:, 0] == pytest.approx([-FORCE, FORCE], rel=1e-9)
     assert scene.contacts()["normal_force_N"] == pytest.approx([FORCE], rel=1e-9)
 
 
