@@ -227,7 +227,7 @@ def test_walls_as_polygons():
     scene = pendular.Scene()
     glass = glass_in(scene)
     scene.add_box(glass, (0, 0, 0), (0.01, 0.01, 0.01))
-    scene.add_grains(glass, [[5e-3, 5e-3, 5e-3]], 4.9e-3)  # planes are shown up to its diameter away
+    scene.add_grains(glass, [[5e-3, 5e-3, 5e-3]], 1e-3)
     made = scene.wall_polygons()
     assert made["wall"].tolist() == list(range(6)) and made["ends"].tolist() == list(range(4, 25, 4))
     corners = np.unique(np.round(made["points_m"], 9), axis=0)
