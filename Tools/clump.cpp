@@ -94,7 +94,7 @@ void drawPicture(const std::vector<Ball>& spheres, const std::vector<Triangle>& 
     picture.size = 0;
     for (const Vector<double>& p : points) picture.size = std::max(picture.size, norm(p - points.front()));
     constexpr int width = 800, height = 600;  // pixels
-    const snapshot::Camera camera = snapshot::cameraOn(points, {0.4, -1, 0.35}, width, height, false);
+    const snapshot::Camera camera = snapshot::cameraOn(points, {0.4, -1, 0.35}, width, height, 0);
     fmt::print("wrote {}\n", snapshot::draw(picture, camera, o.picture, width, height, o.sceneOnly).string());
 }
 

@@ -112,7 +112,11 @@ void SceneBox::take(const Scene& scene) {
 }
 
 void SceneBox::visitState(StateArchive& archive, std::string_view name) {
-    if (archive.isReading() ? archive.holds(name) : !isEmpty()) archive.finite(name, taken);
+    if (archive.isReading() ? !archive.holds(name) : isEmpty()) return;
+    archive.finite(name, taken);
+    archive.require(
+        std::ranges::all_of(axes, [&](auto axis) { return taken.lowest.*axis <= taken.highest.*axis; }), name,
+        "has a lowest corner above its highest one");
 }
 
 }  // namespace pendular

@@ -12,11 +12,15 @@ namespace pendular {
 
 namespace {
 
-Polygon clipped(const Polygon& polygon, const HalfSpace& half) {
+Polygon clipped(const Polygon& polygon, const HalfSpace& half, double slack) {
+    const auto heightOf = [&](const Vector<double>& point) {
+        const double height = dot(half.normal, point) - half.offset;
+        return std::abs(height) > slack ? height : 0;
+    };
     Polygon kept;
     for (std::size_t k = 0; k < polygon.size(); ++k) {
         const Vector<double>&a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-        const double above = dot(half.normal, a) - half.offset, next = dot(half.normal, b) - half.offset;
+        const double above = heightOf(a), next = heightOf(b);
         if (above <= 0) kept.push_back(a);
         if ((above <= 0) != (next <= 0)) kept.push_back(a + (above / (above - next)) * (b - a));
     }
@@ -173,9 +177,10 @@ private:
         for (std::size_t other = 0; other < surfaces.size(); ++other)
             if (other != w)
                 sides.insert(sides.end(), surfaces[other].inside.begin(), surfaces[other].inside.end());
-        const double size = longestSide(box);
+        // A plane on a side of the box, which ends at its nearest point, is there in spite of round-off.
+        const double slack = 1e-9 * longestSide(box);
         for (Polygon& polygon : surfaces[w].polygons)
-            polygon = withoutDoubleCorners(clipped(std::move(polygon), sides), 1e-9 * size);
+            polygon = withoutDoubleCorners(clipped(std::move(polygon), sides, slack), slack);
         std::erase_if(surfaces[w].polygons, [](const Polygon& polygon) { return polygon.size() < 3; });
     }
 
@@ -217,8 +222,8 @@ std::vector<Polygon> turnedAround(const Vector<double>& axis, const Vector<doubl
     return facets;
 }
 
-Polygon clipped(Polygon polygon, const std::vector<HalfSpace>& halfSpaces) {
-    for (const HalfSpace& half : halfSpaces) polygon = clipped(polygon, half);
+Polygon clipped(Polygon polygon, const std::vector<HalfSpace>& halfSpaces, double slack) {
+    for (const HalfSpace& half : halfSpaces) polygon = clipped(polygon, half, slack);
     return polygon;
 }
 

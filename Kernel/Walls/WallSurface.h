@@ -55,7 +55,8 @@ std::vector<Polygon> turnedAround(const Vector<double>& axis, const Vector<doubl
 
 /// The part of a polygon in all half-spaces; without corners where there is none. Source: Sutherland and
 /// Hodgman, Commun. ACM 17 (1974) 32.
-Polygon clipped(Polygon polygon, const std::vector<HalfSpace>& halfSpaces);
+/// @param slack m, corners that are nearer to the edge of a half-space are on it
+Polygon clipped(Polygon polygon, const std::vector<HalfSpace>& halfSpaces, double slack = 0);
 
 /// A box around a surface. Around a surface that turns (spin, rad/s) it holds all places to which the surface
 /// turns about the middle of its own box.

@@ -122,6 +122,23 @@ TEST(WholeWalls, aBarrelInAnyDirection) {
     }
 }
 
+/// Planes across the axes, at many places: each is on a side of the box that ends at it, and round-off takes
+/// none of them away.
+TEST(WholeWalls, planesInSpiteOfRoundOff) {
+    support::Random random(6);
+    for (int k = 0; k < 2000; ++k) {
+        const Vec3D corner = random.inCube(5), low = corner + random.uniform(0, 0.5) * Vec3D::Ones();
+        const double side = random.uniform(0.1, 1);
+        Walls walls;
+        walls.addPlane({0, 0, -1}, corner);
+        walls.addPlane({-1, 0, 0}, corner);
+        const auto surfaces = walls.drawn(low, low + Vec3D::Constant(side));
+        const double area = (low.x() + side - corner.x()) * side;
+        for (std::size_t w = 0; w < 2; ++w)
+            EXPECT_NEAR(areaOf(surfaces[w].polygons) / area, 1, areaError) << k;
+    }
+}
+
 /// A rod from one side of a box of planes to the other, in one corner of which the particles are.
 TEST(WholeWalls, aRodInABox) {
     Walls walls;

@@ -100,8 +100,7 @@ TEST(ShapeFields, areInFilesAndPictures) {
     snapshot::View view;
     view.field = "none";
     const snapshot::Picture picture = snapshot::compose(frame, view, {});
-    const snapshot::Camera camera =
-        snapshot::cameraOn(snapshot::outline(picture), {0, -1, 0}, 640, 480, false);
+    const snapshot::Camera camera = snapshot::cameraOn(snapshot::outline(picture), {0, -1, 0}, 640, 480, 0);
     const std::string text = snapshot::PovScene(picture, camera).text();
     EXPECT_NE(text.find("superellipsoid { <0.6666667,0.5>"), std::string::npos);
     EXPECT_NE(text.find("sphere { 0,1 pigment"), std::string::npos);

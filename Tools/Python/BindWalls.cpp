@@ -138,7 +138,7 @@ void setMotion(const WallHandle& handle, py::function function) {
 py::dict polygons(const PythonScene& scene) {
     FrameContent content;
     content.contacts = false;
-    PolyData made = content.of(scene.scene()).walls.value_or(PolyData{});
+    PolyData made = content.of(scene.scene(), scene.boxOfPictures).walls.value_or(PolyData{});
     py::dict answer;
     answer["points_m"] = arrayOf(std::move(made.points));
     answer["ends"] = arrayOf(std::move(made.ends));
@@ -359,7 +359,8 @@ void bindWalls(py::module_& module, SceneClass& scene) {
         .def("wall_polygons", &polygons,
              "The walls as pictures show them: points_m, corners of plane polygons one after another; ends, "
              "where each polygon ends among them; and of each polygon its wall, species, and what was worn "
-             "off. Endless walls are cut off around the grains and where they meet.")
+             "off. Endless walls end where they meet and at the box of the scene, which widens from call to "
+             "call where it must, and never shrinks.")
         .def_property_readonly(
             "walls",
             [](PythonScene& s) {

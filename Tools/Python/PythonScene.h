@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "Kernel/Contacts/ContactEvent.h"
+#include "Kernel/Output/SceneBox.h"
 #include "Kernel/Simulation/Scene.h"
 #include "Kernel/Species/AnySpecies.h"
 #include "Tools/Python/Numbers.h"
@@ -146,6 +147,8 @@ public:
 
     /// Numbers and arrays of the driver's own that are in restart files, by name.
     py::dict remembered;
+    /// In which pictures show endless walls; it widens with the scene.
+    mutable SceneBox boxOfPictures;
     /// What add_part() was given.
     std::vector<py::object> parts;
     std::vector<AnySpecies*> species;  // in the order of their indices
