@@ -84,6 +84,29 @@ def test_another_server_stops_what_it_has_not_started(serve, root):
     other.wait_for(run, "stopped")
 
 
+def test_the_end_of_a_run_that_says_nothing_is_noted_for_other_servers(serve, root, tmp_path):
+    drivers = tmp_path / "programs"
+    driver_of(drivers, "Signal", ("", "kill -KILL $$"))
+    driver_of(drivers, "Long", ("", "exec sleep 60"))
+    one, other = (serve("--drivers", str(drivers)) for _ in range(2))
+    killed = one.post("start", driver="Signal", name="killed", options={})["id"]
+    assert other.wait_for(killed, "failed", "stopped")["reason"].startswith("it was ended by the signal 9")
+    stopped = one.post("start", driver="Long", name="stopped", options={})["id"]
+    other.wait_for(stopped, "running")
+    other.post("stop", id=stopped)
+    assert other.wait_for(stopped, "failed", "stopped")["state"] == "stopped"
+    # The note of one that runs again is gone; what is no note counts as none.
+    one.post("resume", id=stopped)
+    assert "end" not in other.wait_for(stopped, "running")["start"]
+    one.post("stop", id=stopped)
+    for number, end in enumerate(("[]", '{"state": 1}', '{"state": "<b>", "reason": {}}', '{"state": "ended"}')):
+        folder = root / f"note-{number}"
+        folder.mkdir()
+        (folder / "view-start.json").write_text('{"driver": "Long", "options": {}, "end": %s}' % end)
+        (folder / "view-output.txt").write_text("")
+        assert other.get("run", id=f"note-{number}/run")["state"] == "silent"
+
+
 def test_a_run_that_cannot_begin_says_why(serve):
     server = serve()
     run = server.post("start", driver="RotatingDrum", name="few", options={"--number": "1"})["id"]

@@ -36,8 +36,7 @@ RunQueue::Json optionsOf(const RunQueue::Json& wish) {
     return wish["options"];
 }
 
-void writeStart(const OpenFolder& folder, const std::string& driver, const RunQueue::Json& options) {
-    const RunQueue::Json start{{"driver", driver}, {"options", options}};
+void writeStart(const OpenFolder& folder, const RunQueue::Json& start) {
     folder.write(startFile, start.dump(1, ' ', false, RunQueue::Json::error_handler_t::replace) + "\n");
 }
 
@@ -47,16 +46,14 @@ double now() {
 
 /// @param status as waitpid() tells it
 RunQueue::Outcome outcomeOf(int status) {
-    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM) return {"stopped", "", now()};
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM) return {"stopped", ""};
     if (WIFSIGNALED(status))
-        return {
-            "failed",
-            fmt::format("it was ended by the signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status))),
-            now()};
+        return {"failed", fmt::format("it was ended by the signal {} ({})", WTERMSIG(status),
+                                      strsignal(WTERMSIG(status)))};
     const int code = WEXITSTATUS(status);
-    if (code == 0) return {"ended", "", now()};
-    if (code == 128 + SIGTERM) return {"stopped", "", now()};
-    return {"failed", code == 1 ? "" : fmt::format("it ended with the exit code {}", code), now()};
+    if (code == 0) return {"ended", ""};
+    if (code == 128 + SIGTERM) return {"stopped", ""};
+    return {"failed", code == 1 ? "" : fmt::format("it ended with the exit code {}", code)};
 }
 
 /// A run writes into the folder in which it is started, by its handle: a path could lead elsewhere by then.
@@ -122,7 +119,7 @@ std::string RunQueue::start(const Json& wish) {
     const auto folder = std::make_shared<const OpenFolder>(runs.root().makeFolder(name));
     const RunFiles run{textOfName(name + "/run"), folder, "run"};
     try {
-        writeStart(*folder, driver, options);
+        writeStart(*folder, {{"driver", driver}, {"options", options}});
         add({run, driver, options, std::move(words), lockTurn(*folder)});
         const auto over = outcomes.find(run.id);
         if (over != outcomes.end()) throw InputError(std::exchange(over->second.reason, ""));
@@ -228,7 +225,7 @@ pid_t RunQueue::begin(const Job& job, const fs::path& program) {
         HeldLock log = lockLog(folder);
         {
             const StartLocks alone(job.run);
-            writeStart(folder, job.driver, job.options);
+            writeStart(folder, {{"driver", job.driver}, {"options", job.options}});
         }
         const pid_t process = startProcess(program, job.arguments, folder.descriptor(), log.file());
         log.leave();
@@ -236,6 +233,21 @@ pid_t RunQueue::begin(const Job& job, const fs::path& program) {
     } catch (...) {
         if (isFirst) folder.remove(logFile);  // a run without one was never started
         throw;
+    }
+}
+
+/// Of a run that a signal has ended, which may have had no time to say so itself: in its folder, for other
+/// servers.
+void RunQueue::writeEnd(const Job& job, const Outcome& outcome) {
+    try {
+        const HeldLock turn = lockTurn(*job.run.folder);
+        refuseLive(job.run);
+        Json start = startOf(job.run);
+        if (start.is_null()) return;
+        start["end"] = {{"state", outcome.state}, {"reason", outcome.reason}};
+        writeStart(*job.run.folder, start);
+    } catch (const std::exception&) {
+        // It is started again already, or the disk is full: then it has said nothing of its end.
     }
 }
 
@@ -263,7 +275,10 @@ void RunQueue::tend() {
             ++run;
             continue;
         }
-        outcomes[run->second.run.id] = outcomeOf(status);
+        Outcome outcome = outcomeOf(status);
+        if (WIFSIGNALED(status)) writeEnd(run->second, outcome);
+        outcome.when = now();
+        outcomes[run->second.run.id] = std::move(outcome);
         run = running.erase(run);
     }
     startAll();

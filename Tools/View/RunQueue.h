@@ -69,6 +69,7 @@ private:
     void startAll();
     void startNext();
     [[nodiscard]] static pid_t begin(const Job& job, const std::filesystem::path& program);
+    static void writeEnd(const Job& job, const Outcome& outcome);
     /// Asks the process of a run to stop, by whomever it was started; false: there is none.
     [[nodiscard]] bool stopDriver(const std::string& id) const;
 

@@ -85,8 +85,24 @@ std::string saidEnd(const State& state) {
     return {};
 }
 
+/// Of a run that a signal has ended: what the server that started it has noted. Others may have written it.
+bool notedEnd(State& state, const RunFiles& run) {
+    const Json start = startOf(run);
+    if (!start.is_object() || !start.contains("end") || !start["end"].is_object()) return false;
+    const Json& end = start["end"];
+    const auto textOf = [&](const char* key) {
+        return end.contains(key) && end[key].is_string() ? end[key].get<std::string>() : std::string();
+    };
+    const std::string word = textOf("state");
+    if (word != "stopped" && word != "failed") return false;
+    state.word = word;
+    state.reason = textOf("reason");
+    return true;
+}
+
 /// Of a run that does not compute, and has said nothing of its end.
 void describeSilence(State& state, const RunFiles& run) {
+    if (notedEnd(state, run)) return;
     const bool isStarted = run.folder->hasFile(logFile) || state.summary || !run.folder->hasFile(startFile);
     state.word = isStarted ? "silent" : "stopped";
     state.reason = state.summary ? "it has said nothing of its end: it was killed, or runs on another machine"
