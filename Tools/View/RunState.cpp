@@ -170,6 +170,12 @@ private:
     std::map<fs::path, Known> all;
 };
 
+/// null: it has not said.
+Json isHealthy(const State& state) {
+    if (state.word == "failed") return false;
+    return state.summary && !state.isResumed ? Json(state.complaints().empty()) : Json(nullptr);
+}
+
 Json overviewOf(const RunFiles& run, const State& state) {
     const Json start = startOf(run);
     return {
@@ -180,7 +186,7 @@ Json overviewOf(const RunFiles& run, const State& state) {
         {"time", numberOf(state.summary, "time")},
         {"endTime", numberOf(state.summary, "end time")},
         {"grains", numberOf(state.summary, "grains")},
-        {"healthy", state.summary && !state.isResumed ? Json(state.complaints().empty()) : Json(nullptr)},
+        {"healthy", isHealthy(state)},
         {"bytes", nullptr},
         {"changed", run.folder->changed(state.isPreparation ? RunFiles::preparationFile(SummaryFile::ending)
                                                             : run.file(SummaryFile::ending))}};
