@@ -365,8 +365,10 @@ private:
     }
     template <class Function>
     void visitRecord(const Grains& grains, std::uint32_t slot, Function& function) {
+        // Several threads visit contacts of one block: reading must not give it memory.
+        const EnergyRecord& seen = std::as_const(contacts.memory.energies)[slot];
+        if (!seen.now.acts() && !seen.last.acts()) return;
         EnergyRecord& record = contacts.memory.energies[slot];
-        if (!record.now.acts() && !record.last.acts()) return;
         const std::uint32_t contact = contacts.contactAt(slot);
         const std::size_t b = contact / Pack::lanes;
         const Bucket& bucket = contacts.bucketOf(b);

@@ -61,21 +61,26 @@ void addClump(ParticleStore& one, const ClumpTemplate& shape, double density) {
                    members, shape.getVolume(), {principal.axes.w(), toVector(Vec3D(principal.axes.vec()))});
 }
 
-/// What the stability limit counts with for all clumps or superquadrics of a kind.
-/// @param density kg/m^3; @param turning of a superquadric's extreme contact
-BodiesAlike alikeOf(const BodyKind& kind, double density, double turning) {
+/// Numbers of the shape, whatever its density and size.
+ContactsAround contactsOf(const BodyKind& kind) {
+    constexpr double density = 1;
     ParticleStore one;
     if (kind.clump()) addClump(one, kind.clump()->getTemplate(), density);
     else {
         const Superquadric& shape = kind.shaped()->getShape();
-        const RigidBody body = bodyOf(*kind.shaped(), density, turning);
+        const RigidBody body = bodyOf(*kind.shaped(), density, extremeContact(shape).turning);
         const BodyMember member{
             one.add({{0, 0, 0}, shape.boundingRadius(), {0, 0, 0}, 1 / body.mass}, {0, 0, 0}, 0), {0, 0, 0}};
         one.bodies.add(body, {&member, 1}, shape.volume());
     }
     // Those of the bodies that come may differ by the last digit, and must not be beyond it.
-    BodiesAlike alike{.species = static_cast<std::size_t>(kind.species()),
-                      .around = one.bodies.contactsAt(one, 0).roundedUp(1 + 2.0 / 1024)};
+    return one.bodies.contactsAt(one, 0).roundedUp(1 + 2.0 / 1024);
+}
+
+/// What the stability limit counts with for all clumps or superquadrics of a kind.
+/// @param density kg/m^3
+BodiesAlike alikeOf(const BodyKind& kind, double density, const ContactsAround& around) {
+    BodiesAlike alike{.species = static_cast<std::size_t>(kind.species()), .around = around};
     const auto sizeOf = [&](double diameter) {
         const double radius = 0.5 * diameter;
         return BodiesAlike::Size{sphereMass(radius, density), kind.smallestSphere(radius),
@@ -143,12 +148,11 @@ std::size_t InletHandler::copyAndAddObject(const Inlet& inlet) {
         require(kind.species() >= 0, "the species of its grains",
                 inlet.mixture ? "setSpecies() of all in the mixture" : "setGrain()");
     require(isSet(inlet.massFlow) || isSet(inlet.numberFlow), "its flow", "setMassFlow() or setNumberFlow()");
-    std::vector<double> turnings;
-    for (const BodyKind& kind : bodies)
-        turnings.push_back(kind.shaped() ? extremeContact(kind.shaped()->getShape()).turning : 0);
+    std::vector<ContactsAround> around;
+    for (const BodyKind& kind : bodies) around.push_back(kind.grain() ? ContactsAround{} : contactsOf(kind));
     inlets.push_back({.inlet = inlet,
                       .bodies = std::move(bodies),
-                      .turnings = std::move(turnings),
+                      .around = std::move(around),
                       .region = inlet.region,
                       .count = {}});
     return inlets.size() - 1;
@@ -169,8 +173,8 @@ std::vector<InletHandler::Sizes> InletHandler::sizes(const GrainSpecies& species
             Sizes sizes{kind.smallestSphere(0.5 * kind.sizes.smallest()),
                         kind.largestSphere(0.5 * kind.sizes.largest()), kind.species(), std::nullopt};
             if (!kind.grain())
-                sizes.bodies = alikeOf(kind, species.density(static_cast<std::size_t>(kind.species())),
-                                       kept.turnings[k]);
+                sizes.bodies =
+                    alikeOf(kind, species.density(static_cast<std::size_t>(kind.species())), kept.around[k]);
             all.push_back(sizes);
         }
     return all;

@@ -158,7 +158,7 @@ private:
     struct Kept {
         Inlet inlet;
         BodyMixture bodies;
-        std::vector<double> turnings;          // of each kind's extreme contact, if it is a superquadric
+        std::vector<ContactsAround> around;    // of each kind; of grains unused
         std::shared_ptr<const Region> region;  // in this scene
         InletCount count;
         std::uint32_t attempts = 0;  // of places for the next grain

@@ -25,6 +25,8 @@ struct Side {
     double finer = 0;      // 1/m, and
     double finest = 0;     // 1/m^2: means of 1/r and 1/r^2 over the surface of a body
     [[nodiscard]] bool isBlock() const { return flat > 0; }
+    /// Held grains may lie as densely as the spheres of a body.
+    [[nodiscard]] bool isHeld() const { return radius < infinity && !(mass < infinity); }
 };
 
 /// Whether the wall has no hollow that a body may fit into, so that it touches all of its spheres at once.
@@ -40,12 +42,12 @@ std::size_t countOf(const std::vector<BodiesAlike>& bodies) {
     return count;
 }
 
-/// From how many sides, up to two, plane walls may touch a body.
+/// From how many sides, up to six, plane walls may touch a body.
 double sidesOfPlanes(const WallHandler& walls) {
     double sides = 0;
     for (const PresentWall& wall : walls.present())
-        sides += dynamic_cast<const InfiniteWall*>(wall.object.get()) ? 1 : isFlat(*wall.object) ? 2 : 0;
-    return std::min(sides, 2.0);
+        sides += dynamic_cast<const InfiniteWall*>(wall.object.get()) ? 1 : isFlat(*wall.object) ? 6 : 0;
+    return std::min(sides, 6.0);
 }
 
 /// What bodies may touch: the extremes of each species.
@@ -112,6 +114,12 @@ double roomFor(const Side& partner, const Side& own, double face) {
     return std::max(1.0, 0.25 * (own.radius * own.radius * finest + 2 * own.radius * finer + 1));
 }
 
+/// The spheres of a body that one of another radius touches at once, where one of theirs touches so many: at
+/// one overlap the part of the surface that it touches grows as R + r.
+double touchedBy(double radius, double ofBody, double touched) {
+    return 1 + (touched - 1) * std::max(1.0, (radius + ofBody) / (2 * ofBody));
+}
+
 /// Contacts of one side, as if each of the other were at rest, over the mass.
 class Loads {
 public:
@@ -148,12 +156,15 @@ public:
     [[nodiscard]] BodyLoad ofBodyAtPlanes(const Contact& contact, const ContactsAround& around, double mass,
                                           double sides) const {
         const ContactStiffness& s = contact.stiffness;
-        const double unit = sides / mass, turn = around.turning * squaredLeverOfRotation(contact.bodies);
+        const double turn = sides * around.turning * squaredLeverOfRotation(contact.bodies);
+        const auto of = [sides](double one, double box) { return std::min(sides * one, box); };
+        const double normal = of(around.wallNormal, around.boxNormal),
+                     sliding = of(around.wallSliding, around.boxSliding),
+                     spin = of(around.wallSpin, around.boxSpin);
         const SpringAndDashpot turning = turn * (s.rolling + s.torsion);
-        return completed(
-            {.all = unit * (around.wallNormal * s.normal + around.wallSliding * s.sliding + turning),
-             .spin = unit * (around.wallSpin * s.sliding + turning)},
-            contact, around.wallNormal / mass);
+        return completed({.all = 1 / mass * (normal * s.normal + sliding * s.sliding + turning),
+                          .spin = 1 / mass * (spin * s.sliding + turning)},
+                         contact, around.wallNormal / mass);
     }
     /// Of a free sphere, each of whose contacts is with so many spheres.
     [[nodiscard]] BodyLoad ofSphere(const Contact& contact, double mass, double spheres) const {
@@ -198,6 +209,46 @@ std::array<Side, 2> sidesOf(const BodiesAlike& body, const BodiesAlike::Size& si
     return {smallest, largest};
 }
 
+/// Of a body among all that it may touch, and between planes.
+BodyLoad loadOfBody(const Loads& loads, const BodiesAlike& body, const BodiesAlike::Size& size,
+                    const Side& own, const std::vector<Side>& partners, double sides) {
+    BodyLoad amongOthers, atPlanes, amongPlanes;
+    for (const Side& partner : partners) {
+        const Loads::Contact contact = loads.contactOf(own, partner);
+        if (partner.isPlane) {
+            const auto between = [&](double planes) {
+                return loads.ofBodyAtPlanes(contact, body.around, size.mass, planes);
+            };
+            atPlanes = largest(atPlanes, between(std::min(sides, 2.0)));
+            amongPlanes = largest(amongPlanes, between(sides));
+            continue;
+        }
+        const double spheres =
+            partner.isHeld() ? std::max(partner.spheres, body.around.facing()) : partner.spheres;
+        amongOthers = largest(amongOthers, loads.ofBody(contact, body.around, size.mass,
+                                                        spheres * roomFor(partner, own, size.face)));
+    }
+    // Planes on two sides leave room for half of the others, on all sides for none.
+    return largest(largest(amongOthers, amongPlanes), sum(atPlanes, amongOthers, 0.5));
+}
+
+/// Of the free spheres on such bodies: among these, or on one at its densest place.
+BodyLoad loadOfSpheres(const Loads& loads, const ContactLaws& species, const GrainSizes& alone,
+                       const ContactsAround& around, const Side& body) {
+    const double touched = std::max(around.mean, around.most / loads.along());
+    BodyLoad load;
+    for (std::size_t s = 0; s < alone.free.size(); ++s) {
+        if (alone.free[s].empty()) continue;
+        for (const double radius : {alone.free[s].smallest, alone.free[s].largest}) {
+            const double mass = species.massOf(s, radius);
+            const Side sphere{.species = s, .radius = radius, .mass = mass};
+            load = largest(load, loads.ofSphere(loads.contactOf(sphere, body), mass,
+                                                touchedBy(radius, body.radius, touched)));
+        }
+    }
+    return load;
+}
+
 }  // namespace
 
 BodyLoad loadOfBodies(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
@@ -210,30 +261,8 @@ BodyLoad loadOfBodies(const ContactLaws& species, const GrainSizes& grains, cons
     for (const BodiesAlike& body : grains.bodies)
         for (const BodiesAlike::Size& size : {body.least, body.most})
             for (const Side& own : sidesOf(body, size)) {
-                BodyLoad amongOthers, atPlanes;
-                for (const Side& partner : all) {
-                    const Loads::Contact contact = loads.contactOf(own, partner);
-                    if (partner.isPlane)
-                        atPlanes =
-                            largest(atPlanes, loads.ofBodyAtPlanes(contact, body.around, size.mass, sides));
-                    else
-                        amongOthers = largest(
-                            amongOthers, loads.ofBody(contact, body.around, size.mass,
-                                                      partner.spheres * roomFor(partner, own, size.face)));
-                }
-                // Planes on two sides leave room for half of the others.
-                ofBodies = largest(ofBodies, amongOthers);
-                ofBodies = largest(ofBodies, sum(atPlanes, amongOthers, 0.5));
-                // A sphere among such bodies, or on one at its densest place.
-                const double touched = std::max(body.around.mean, body.around.most / loads.along());
-                for (std::size_t s = 0; s < alone.free.size(); ++s)
-                    if (!alone.free[s].empty())
-                        for (const double radius : {alone.free[s].smallest, alone.free[s].largest}) {
-                            const double mass = species.massOf(s, radius);
-                            const Side sphere{.species = s, .radius = radius, .mass = mass};
-                            ofSpheres = largest(ofSpheres,
-                                                loads.ofSphere(loads.contactOf(sphere, own), mass, touched));
-                        }
+                ofBodies = largest(ofBodies, loadOfBody(loads, body, size, own, all, sides));
+                ofSpheres = largest(ofSpheres, loadOfSpheres(loads, species, alone, body.around, own));
             }
     forEachExtremePair(species, alone, walls, [&](const PairLaws& pair, const Bodies& bodies, double mass) {
         const ContactStiffness stiffness = contactStiffness(pair, bodies, grains.heldDamping * mass);

@@ -75,7 +75,7 @@ std::vector<BodiesAlike> bodiesOf(const ParticleStore& grains, const AllRanks& r
     for (std::size_t k = 0; k < grains.bodies.size(); ++k)
         for (const BodiesAlike& one : bodiesAt(grains, k)) own.push_back(one);
     // By shape, so that a scene of many has few of them.
-    using Key = std::tuple<std::size_t, bool, std::array<double, 11>>;
+    using Key = std::tuple<std::size_t, bool, decltype(ContactsAround{}.numbers())>;
     const auto keyOf = [](const BodiesAlike& b) -> Key { return {b.species, b.isBlock, b.around.numbers()}; };
     const auto merged = [&](const std::vector<BodiesAlike>& all) {
         std::map<Key, BodiesAlike> byShape;

@@ -165,17 +165,22 @@ public:
         // Those with most come first, so that few of the others can have a larger eigenvalue.
         std::ranges::sort(seen, {}, [](const Seen& plane) { return -plane.trace; });
         found.wallNormal = found.wallSliding = found.wallSpin = 0;
+        Vector<double> ofNormal{0, 0, 1}, ofSliding = ofNormal, ofSpin = ofNormal;
+        const auto take = [](double value, const Seen& plane, double& most, Vector<double>& direction) {
+            if (value > most) most = value, direction = plane.normal;
+        };
         for (const Seen& plane : seen) {
             // The part across has two tangents, and so at most the shift and the spin of twice as many.
             if (plane.trace <= std::min({found.wallNormal, found.wallSliding, found.wallSpin})) break;
             Sums sums(mass, moments);
-            for (const SphereOfBody& sphere : spheres)
-                if (isTouched(sphere, plane))
-                    sums.add(toEigen(sphere.arm + sphere.radius * plane.normal), toEigen(plane.normal), 1, 1);
-            found.wallNormal = std::max(found.wallNormal, sums.ofNormal());
-            found.wallSliding = std::max(found.wallSliding, sums.ofSliding());
-            found.wallSpin = std::max(found.wallSpin, sums.ofSpin());
+            touch(plane, sums);
+            take(sums.ofNormal(), plane, found.wallNormal, ofNormal);
+            take(sums.ofSliding(), plane, found.wallSliding, ofSliding);
+            take(sums.ofSpin(), plane, found.wallSpin, ofSpin);
         }
+        found.boxNormal = 2 * found.wallNormal, found.boxSliding = 2 * found.wallSliding;
+        found.boxSpin = 2 * found.wallSpin;
+        for (const Vector<double>& direction : {ofNormal, ofSliding, ofSpin}) addBoxes(direction, found);
     }
 
 private:
@@ -190,7 +195,28 @@ private:
         return dot(sphere.arm, plane.normal) + sphere.radius >
                plane.height - plane.slack - 0.03 * norm(aside - along * plane.normal);
     }
-    void look(const Vector<double>& normal) {
+    void touch(const Seen& plane, Sums& sums) const {
+        for (const SphereOfBody& sphere : spheres)
+            if (isTouched(sphere, plane))
+                sums.add(toEigen(sphere.arm + sphere.radius * plane.normal), toEigen(plane.normal), 1, 1);
+    }
+    /// Of six planes, two of them across a direction: others turn a cube about an axis along them as these
+    /// do.
+    void addBoxes(const Vector<double>& direction, ContactsAround& found) const {
+        const Eigen::Vector3d across = toEigen(direction), side = across.unitOrthogonal();
+        constexpr int turns = 8;  // of the quarter that a box looks the same after
+        for (int k = 0; k < turns; ++k) {
+            const Eigen::AngleAxisd turn(0.5 * std::numbers::pi * k / turns, across);
+            const Eigen::Vector3d first = turn * side, second = across.cross(first);
+            Sums sums(mass, moments);
+            for (const Eigen::Vector3d& normal : {across, first, second})
+                for (const double sign : {-1.0, 1.0}) touch(planeAcross(sign * toVector(normal)), sums);
+            found.boxNormal = std::max(found.boxNormal, sums.ofNormal());
+            found.boxSliding = std::max(found.boxSliding, sums.ofSliding());
+            found.boxSpin = std::max(found.boxSpin, sums.ofSpin());
+        }
+    }
+    [[nodiscard]] Seen planeAcross(const Vector<double>& normal) const {
         Seen plane{normal, {0, 0, 0}, -infinity, 0, 0};
         for (const SphereOfBody& sphere : spheres)
             if (const double height = dot(sphere.arm, normal) + sphere.radius; height > plane.height)
@@ -202,8 +228,9 @@ private:
                 const Vector<double> arm = sphere.arm + sphere.radius * normal;
                 plane.trace += 3 + 2 * mass * squaredNorm(arm) / least;
             }
-        seen.push_back(plane);
+        return plane;
     }
+    void look(const Vector<double>& normal) { seen.push_back(planeAcross(normal)); }
     std::span<const SphereOfBody> spheres;
     double mass;             // kg
     Vector<double> moments;  // kg m^2
@@ -221,13 +248,14 @@ double alone(std::span<const SphereOfBody> spheres, double mass, const Vector<do
 
 }  // namespace
 
-std::array<double, 11> ContactsAround::numbers() const {
-    return {normal, sliding, spin, turning, mean, most, wallNormal, wallSliding, wallSpin, finer, finest};
+std::array<double, 14> ContactsAround::numbers() const {
+    return {normal,      sliding,  spin,      turning,    mean,    most,  wallNormal,
+            wallSliding, wallSpin, boxNormal, boxSliding, boxSpin, finer, finest};
 }
 
 bool ContactsAround::areWithin(const ContactsAround& other) const {
     constexpr double digit = 1 + 3.0 / 1024;
-    const std::array<double, 11> own = numbers(), others = other.numbers();
+    const std::array<double, 14> own = numbers(), others = other.numbers();
     for (std::size_t k = 0; k < own.size(); ++k)
         if (own[k] > digit * others[k]) return false;
     return true;
@@ -244,6 +272,9 @@ ContactsAround ContactsAround::roundedUp(double factor) const {
             .wallNormal = up(wallNormal),
             .wallSliding = up(wallSliding),
             .wallSpin = up(wallSpin),
+            .boxNormal = up(boxNormal),
+            .boxSliding = up(boxSliding),
+            .boxSpin = up(boxSpin),
             .finer = up(finer),
             .finest = up(finest)};
 }
@@ -317,6 +348,9 @@ ContactsAround contactsAroundBlock(std::span<const SphereOfBody> corners, double
                          .spin = sums.ofSpin(),
                          .turning = mass * rims / std::min({moments.x, moments.y, moments.z})};
     found.wallNormal = found.wallSliding = found.wallSpin = 0;
+    // All faces lie on planes, without the corners of others.
+    found.boxNormal = alongAll / 2 * sums.ofNormal(), found.boxSliding = acrossAll / 2 * sums.ofSliding();
+    found.boxSpin = acrossAll / 2 * sums.ofSpin();
     for (int axis = 0; axis < 3; ++axis) {
         const Eigen::Vector3d normal = Eigen::Vector3d::Unit(axis);
         Sums face(mass, moments);
@@ -337,7 +371,10 @@ ContactsAround contactsAroundAs(double massAtContacts, double mass) {
                           .turning = 2.5 * share,
                           .wallNormal = share,
                           .wallSliding = 3.5 * share,
-                          .wallSpin = 2.5 * share}
+                          .wallSpin = 2.5 * share,
+                          .boxNormal = 2 * share,
+                          .boxSliding = 10 * share,  // spin about an axis with four planes along it
+                          .boxSpin = 10 * share}
         .roundedUp();
 }
 

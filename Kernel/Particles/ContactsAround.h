@@ -37,6 +37,8 @@ struct ContactsAround {
     /// The same of a plane wall that touches as many spheres at once as it can, over a single contact of a
     /// sphere: k_n / M, k_t / M.
     double wallNormal = 1, wallSliding = 3.5, wallSpin = 2.5;
+    /// Of planes on all sides at once: twice that of one, or more where others turn it about the same axis.
+    double boxNormal = 2, boxSliding = 10, boxSpin = 10;
     /// The largest radius R over the radius r of its spheres, and the square: means over its surface, for the
     /// room that they find on others.
     double finer = 1, finest = 1;
@@ -46,7 +48,7 @@ struct ContactsAround {
     /// 0.2, 0.5 and 1 radius from each other, the contacts are 6.3, 2.0 and 1.3 times those of the surface or
     /// fewer (that much less than all as the margin of the limit bears).
     [[nodiscard]] double facing() const { return most < 1.5 ? 1 : std::min(1.25 * most, 2 * mean); }
-    [[nodiscard]] std::array<double, 11> numbers() const;
+    [[nodiscard]] std::array<double, 14> numbers() const;
     /// Where all numbers are not above those of another body, but for the last digit that is kept.
     [[nodiscard]] bool areWithin(const ContactsAround& other) const;
     /// To ten binary digits, upwards, of numbers that are so many times as large: bodies of one shape have

@@ -291,9 +291,16 @@ bool RigidBodies::haveOneShape(const ParticleStore& grains, std::size_t a, std::
 
 const ContactsAround& RigidBodies::contactsAt(const ParticleStore& grains, std::size_t at) const {
     if (around[at]) return *around[at];
-    const bool isKnown = lastFound < size() && around[lastFound] && haveOneShape(grains, lastFound, at);
-    around[at] = isKnown ? *around[lastFound] : findContacts(grains, at);
-    lastFound = at;
+    // A body that has moved to one of these places since may be of any shape, or not known yet.
+    const auto known = std::ranges::find_if(shapes, [&](std::size_t other) {
+        return other < size() && around[other] && haveOneShape(grains, other, at);
+    });
+    if (known != shapes.end()) return *(around[at] = around[*known]);
+    around[at] = findContacts(grains, at);
+    if (begins[at + 1] - begins[at] == 1) return *around[at];
+    constexpr std::size_t most = 16;  // shapes of a mixture
+    if (shapes.size() == most) shapes.erase(shapes.begin());
+    shapes.push_back(at);
     return *around[at];
 }
 

@@ -299,7 +299,7 @@ private:
     std::vector<double> volumes;                                // m^3, of each
     std::vector<Quaternion> frames;                             // of each without films: see add()
     mutable std::vector<std::optional<ContactsAround>> around;  // of each, once they were asked for
-    mutable std::size_t lastFound = 0;                          // a place in `around`
+    mutable std::vector<std::size_t> shapes;                    // places in `around` of a few unlike bodies
     std::vector<HeldBody> held;                                 // of each; empty while none is held
     std::vector<DryBody> dry;                                   // of each; empty while films have no mass
     std::vector<Vector<double>> dryArms;  // m, of each of `members`, in its dry body; empty as `dry`

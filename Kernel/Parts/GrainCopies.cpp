@@ -125,11 +125,11 @@ static int turnsToFull(double angle) {
     if (std::abs(count - whole) < 1e-9 * count) return static_cast<int>(whole);
     constexpr double degree = std::numbers::pi / 180;
     const double fewer = std::max(std::floor(count), 3.0);
-    throw InputError(
-        fmt::format("copies of grains: the angle between the faces is {:.10g} degrees, so that {:.6g} wedges "
-                    "fill a turn; "
-                    "it must be 360 degrees over a whole number: take {:.10g} or {:.10g} degrees.",
-                    angle / degree, count, 360 / (fewer + 1), 360 / fewer));
+    throw InputError(fmt::format(
+        "copies of grains: the angle between the faces is {:.10g} degrees, so that {:.10g} wedges "
+        "fill a turn; "
+        "it must be 360 degrees over a whole number: take {:.10g} or {:.10g} degrees.",
+        angle / degree, count, 360 / (fewer + 1), 360 / fewer));
 }
 
 void GrainCopies::addTurn(const Vec3D& inwards, const Vec3D& outwards, const Vec3D& point) {

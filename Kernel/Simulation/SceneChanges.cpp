@@ -231,7 +231,11 @@ bool Scene::Inside::isNewToChecks(std::span<const std::uint32_t> added) const {
         const TranslationRecord& grain = grains.translation[place];
         if (box.imagesMove && grain.inverseMass == 0) return true;
         if (grains.heldAt(place).any()) return true;
-        return !checkedSizes.hold(grains.species[place], grain.radius, grain.inverseMass > 0);
+        if (!checkedSizes.hold(grains.species[place], grain.radius, grain.inverseMass > 0)) return true;
+        // Grains of bodies, which touch others as their bodies do, do not tell of one that is in none.
+        return checkedSizes.hasBodies && grain.inverseMass > 0 &&
+               grains.bodies.bodyOf(identity) == RigidBodies::none &&
+               !checkedSizes.alone[grains.species[place]].holds(grain.radius);
     });
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Walls/TriangleWall.h"
 #include "SelfTests/Scenes/FewGrains.h"
 

@@ -187,7 +187,6 @@ TEST(Heat, whatCannotBeIsRefused) {
     expectRefused(refusal([&] { fourth.initialise(); }), "species 1");
 }
 
-// At a step above C / sum H the run ends, with the step that is allowed: 93.7 s with two neighbours.
 // Discs touch along lines, and have masses by area.
 TEST(Heat, isRefusedWithDiscs) {
     Column column(2, 1e-6);
@@ -201,6 +200,7 @@ TEST(Heat, isRefusedWithDiscs) {
         << text;
 }
 
+// At a step above C / sum H the run ends, with the step that is allowed: 93.7 s with two neighbours.
 TEST(Heat, stepsThatAreTooLongEndTheRun) {
     Column good(3, 0.999 * held / (2 * contact));
     good.run(2);

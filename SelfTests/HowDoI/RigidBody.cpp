@@ -12,7 +12,7 @@ struct Dumbbell : FirstDriver {
         particleHandler.copyAndAddObject(second);
         BodyReference body = bodyHandler.join({0, 1});
         body.setAngularVelocity({0, 30, 0});  // rad/s
-        setTimeStep(stabilityLimit());        // s, shorter than for single grains
+        setTimeStep(stabilityLimit());        // s
     }
 };
 // [end]

@@ -22,7 +22,7 @@ struct WornByRods : FirstDriver {
         rod.setPosition({0.01, 0.02, 0.02});  // m, of its centre of mass
         rod.setVelocity({0.2, 0.05, 0});      // m/s
         bodyHandler.copyAndAddObject(rod);    // it wears by the mass of the whole rod
-        setTimeStep(stabilityLimit());        // s, shorter than for single grains
+        setTimeStep(stabilityLimit());        // s
     }
 };
 // [end]

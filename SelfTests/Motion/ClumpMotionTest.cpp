@@ -580,6 +580,32 @@ TEST(ClumpMotion, aSmallSphereOnALargeOneDoesNotBindTheStep) {
     EXPECT_LT(limitOf(true), limitOf(false));
 }
 
+// A rod of dense spheres on one that is held, in step with it: each sphere touches five of the other one
+// where the deepest overlap is 5 %. All of these springs shift the rod, which must be stable at the limit.
+TEST(ClumpMotion, theLimitKnowsHowManySpheresOfAHeldBodyOneTouches) {
+    constexpr double r = 1e-3, stiffness = 1000, spacing = 0.2 * r, apart = 1.95 * r;
+    constexpr std::uint32_t count = 10;
+    std::vector<GrainMotion> grains;
+    std::vector<std::uint32_t> below, above;
+    for (std::uint32_t k = 0; k < 2 * count; ++k) {
+        grains.push_back({.radius = r, .position = {spacing * (k % count), 0, k < count ? 0 : apart}});
+        (k < count ? below : above).push_back(k);
+    }
+    FewGrains<Smooth> scene(elastic(stiffness), grains, 1e-7);
+    scene.setIntegrator(integrators::velocityVerlet);
+    scene.bodyHandler.join(below).fixBody();
+    const BodyReference rod = scene.bodyHandler.join(above);
+    double share = 0;  // of k, along the line between the rods
+    for (const std::uint32_t a : below)
+        for (const std::uint32_t b : above) {
+            const Vec3D way = grains[b].position - grains[a].position;
+            if (way.norm() < 2 * r) share += way.z() * way.z() / way.squaredNorm();
+        }
+    const double exact = 2 / std::sqrt(share * stiffness / rod.getMass());
+    EXPECT_LT(scene.stabilityLimit(), exact);
+    EXPECT_GT(scene.stabilityLimit(), 0.2 * exact);
+}
+
 /// Two fused spheres that turn in a box of smooth elastic walls: for 10^6 steps.
 TEST(LongClumpMotion, fusedSpheresDoNotDriftInABoxFor1e6Steps) {
     FewGrains<Smooth> scene(elastic(1000), {}, 4e-6);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Motion/FreeTurn.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
@@ -419,6 +420,34 @@ TEST(RigidBody, makesTheStabilityLimitShorterByItsRim) {
     joined.setIntegrator(integrators::velocityVerlet);
     joined.bodyHandler.join({0});
     EXPECT_EQ(joined.stabilityLimit(), sphere);
+}
+
+// A rod on a floor has one contact of each sphere, and among free grains of the same size four along each
+// direction.
+TEST(RigidBody, whichIsAloneHasALongerLimitUntilAGrainComes) {
+    constexpr double r = 1e-3;
+    std::vector<GrainMotion> grains;
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t k = 0; k < 15; ++k) {
+        grains.push_back({.radius = r, .position = {2 * r * k, 0, r}});
+        all.push_back(k);
+    }
+    FewGrains<Smooth> scene(smooth(1000, 2500), grains, 1e-7, {{{0, 0, -1}, {0, 0, 0}}});
+    scene.bodyHandler.join(all);
+    scene.setTimeStep(0.9 * scene.stabilityLimit());
+    scene.initialise();
+    scene.step();
+    SphericalParticle grain;
+    grain.setSpecies(scene.speciesHandler.getObject(0));
+    grain.setRadius(r);
+    grain.setPosition({0, 0.1, r});
+    scene.particleHandler.copyAndAddObject(grain);
+    try {
+        scene.step();
+        ADD_FAILURE() << "the limit of the rod alone was kept";
+    } catch (const RunError& error) {
+        EXPECT_TRUE(contains(error.what(), "above the stability limit")) << error.what();
+    }
 }
 
 TEST(RigidBody, refusesWhatCannotBeJoined) {

@@ -207,6 +207,22 @@ TEST(ContactsAround, ofACubeAreThoseOfItsCorners) {
     expectRoundedUp(found.wallNormal, std::max(4.0, 4 * h * h / moment));
 }
 
+// Eight touching spheres in a box that presses all faces of the cube: 4 k on each of two shift it, and
+// friction turns it about an axis with 8 contacts of arms sqrt(2) on the faces across, and 16 of arms 2 on
+// the others. Of one face it has the shift and the spin about an axis in it together, 4 (1 + 4 M / I).
+TEST(ContactsAround, ofACubeInABoxAreThoseOfAllFaces) {
+    std::vector<SphereOfBody> corners;
+    for (int k = 0; k < 8; ++k)
+        corners.push_back({{k & 1 ? 1.0 : -1.0, k & 2 ? 1.0 : -1.0, k & 4 ? 1.0 : -1.0}, 1});
+    const double moment = 8 * (0.4 + 2), mass = 8;
+    const ContactsAround found = contactsAround(corners, mass, {moment, moment, moment});
+    expectRoundedUp(found.wallNormal, 4);
+    expectRoundedUp(found.wallSliding, 4 * (1 + 4 * mass / moment));
+    expectRoundedUp(found.boxNormal, 8);
+    expectRoundedUp(found.boxSliding, (8 * 2 + 16 * 4) * mass / moment);
+    expectRoundedUp(found.boxSpin, (8 * 2 + 16 * 4) * mass / moment);
+}
+
 // The numbers belong to the shape: not to its size, nor to how its principal axes were found.
 TEST(ContactsAround, areThoseOfTheShape) {
     std::vector<SphereOfBody> given{{{0, 0, 0}, 1}, {{1.1, 0.2, 0}, 0.7}, {{-0.3, 0.9, 0.4}, 0.5}};

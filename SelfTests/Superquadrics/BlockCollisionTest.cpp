@@ -162,6 +162,19 @@ TEST(BlockCollision, theStabilityLimitIsNearTheStepOfItsContacts) {
         }
 }
 
+// A cube that six planes press: about each axis 16 corners on four faces have arms h.
+TEST(BlockCollision, theStabilityLimitIsThatOfACubeInABox) {
+    constexpr double k = 1e4, outer = 2e-3, radius = 1e-4, h = outer - radius;
+    FewBlocks scene(blockSpecies(k, 0, 0));
+    scene.add({{outer, outer, outer}, radius, {0, 0, 0}});
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double sign : {-1.0, 1.0})
+            scene.addPlane(sign * Vec3D::Unit(axis), sign * outer * Vec3D::Unit(axis));
+    scene.setIntegrator(integrators::velocityVerlet);
+    const double squared = 16 * h * h * k / scene.body(0).getInertia()[0];
+    EXPECT_NEAR(scene.stabilityLimit() / (0.9 * 2 / std::sqrt(squared)), 1, 2e-3);
+}
+
 // All corners of the polygons are on the surface: at the radius of the edges from the cuboid.
 TEST(BlockCollision, isDrawnAsABox) {
     FewBlocks scene(blockSpecies(1e3, 0, 0.4));
