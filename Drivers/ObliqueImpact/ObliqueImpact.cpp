@@ -9,6 +9,7 @@
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/SphereImpact.h"
 #include "Kernel/Files/CsvFile.h"
+#include "Kernel/Files/FileFault.h"
 
 using namespace pendular;
 
@@ -125,11 +126,11 @@ private:
     /// is of the rows that are kept.
     void leaveNoEnergy(const std::filesystem::path& table) const {
         const std::filesystem::path part = table.string() + ".part";
-        std::error_code ignored;
-        if (kept > 0 && (std::filesystem::exists(table, ignored) || std::filesystem::exists(part, ignored)))
+        if (kept > 0 && (isThere(table) || isThere(part)))
             throw InputError(fmt::format(
                 "ObliqueImpact: the run of {} was one with --energy; --resume needs that option too.",
                 table.string()));
+        std::error_code ignored;
         std::filesystem::remove(table, ignored);
         std::filesystem::remove(part, ignored);
     }

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "Kernel/Files/FileFault.h"
 #include "Kernel/Files/OwnFile.h"
 #include "Kernel/Output/EnergyFile.h"
 #include "Kernel/Output/Hdf5Output.h"
@@ -32,8 +33,7 @@ std::string RunOptions::nameOf(const std::string& run) const {
 std::filesystem::path RunOptions::restartSource(const std::string& run) const {
     if (!restart.empty()) return restart;
     const std::filesystem::path own = restartFileOf(nameOf(run));
-    std::error_code ignored;
-    return resume && std::filesystem::exists(own, ignored) ? own : std::filesystem::path();
+    return resume && isThere(own) ? own : std::filesystem::path();
 }
 
 void RunOptions::forgetAtStart(Scene& scene, const std::vector<std::string>& runs) const {

@@ -93,8 +93,7 @@ std::vector<GrainRow> kept(const std::filesystem::path& folder, const std::strin
                            const std::function<std::vector<GrainRow>()>& make) {
     if (folder.empty()) return make();
     const std::filesystem::path file = folder / (name + ".txt");
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) {
+    if (!isThere(file)) {
         makeFolder(folder);
         writeGrainFile(file, make());
     }

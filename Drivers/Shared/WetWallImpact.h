@@ -107,10 +107,8 @@ public:
             if (static_cast<double>(getNumberOfTimeSteps()) >= 1e4 * (given.stepsPerContact + layers))
                 throw InputError(
                     "WetWallImpact: the sphere creeps, and has not left the plate after 10 000 times the "
-                    "time "
-                    "of a dry contact and of the way through the layer; the restitution must be larger, or "
-                    "the "
-                    "viscosity smaller.");
+                    "time of a dry contact and of the way through the layer; the restitution must be "
+                    "larger, or the viscosity smaller.");
             const double from = separation();
             step();
             weightWork += bridgeWeight(from, separation());

@@ -32,6 +32,11 @@ void renameFile(const fs::path& from, const fs::path& to) {
                                      problem.message()));
 }
 
+bool isThere(const fs::path& file) noexcept {
+    std::error_code ignored;
+    return fs::exists(file, ignored);
+}
+
 std::uintmax_t sizeOf(const fs::path& file) {
     std::error_code problem;
     const std::uintmax_t bytes = fs::file_size(file, problem);

@@ -16,6 +16,9 @@ std::string sentenceOf(const std::exception& problem);
 /// reason.
 void renameFile(const std::filesystem::path& from, const std::filesystem::path& to);
 
+/// Whether there is a file or folder; false also where that cannot be found out.
+bool isThere(const std::filesystem::path& file) noexcept;
+
 /// Bytes of a file. Throws InputError, with the reason, where that cannot be found out.
 std::uintmax_t sizeOf(const std::filesystem::path& file);
 

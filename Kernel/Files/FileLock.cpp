@@ -20,14 +20,13 @@
 
 namespace pendular {
 
-namespace {
-
-/// 0, or the reason for which there is no lock.
-int lock(int descriptor) {
+int tryLock(int descriptor) {
     while (flock(descriptor, LOCK_EX | LOCK_NB) != 0)
         if (errno != EINTR) return errno;
     return 0;
 }
+
+namespace {
 
 /// The process that has the lock; 0 where its owner has not yet written it.
 pid_t ownerIn(int descriptor) {
@@ -40,12 +39,12 @@ pid_t ownerIn(int descriptor) {
 /// the owner has just been killed, that takes until the system gives it a processor.
 int lockAfterItsCopies(int descriptor) {
     using namespace std::chrono_literals;
-    int problem = lock(descriptor);
+    int problem = tryLock(descriptor);
     for (auto waited = 0ms; problem == EWOULDBLOCK && waited < 5s; waited += 5ms) {
         const pid_t owner = ownerIn(descriptor);
         if (owner <= 0 || kill(owner, 0) == 0 || errno != ESRCH) break;
         std::this_thread::sleep_for(5ms);
-        problem = lock(descriptor);
+        problem = tryLock(descriptor);
     }
     return problem;
 }

@@ -7,6 +7,10 @@
 
 namespace pendular {
 
+/// Takes the lock of an open file, without waiting. Returns 0, or the reason (errno) for which there is none:
+/// EWOULDBLOCK, another has it.
+[[nodiscard]] int tryLock(int descriptor);
+
 /// While it lives, no other process (and no other lock of this one) has the same: the lock of the operating
 /// system (flock) on a file that is kept open. It ends with the process, however that ends, so that a killed
 /// one leaves a file behind, but no lock. Where the file system knows no locks, there is none.

@@ -126,21 +126,21 @@ void refuseMoreThanTheRegion(const BodyMixture& mixture, const Amount& amount, d
 }
 
 /// The bodies of an amount, the largest first.
+/// @param full kg, fullMassOf() the region: a fraction of volume is one of mass, at the mean density
 std::vector<PlacedBody> bodiesOf(const InsertionScene& scene, const BodyMixture& mixture,
-                                 const Amount& amount, const Region& region, const InsertOptions& options) {
+                                 const Amount& amount, double volume, double full,
+                                 const InsertOptions& options) {
     std::vector<PlacedBody> bodies;
     if (mixture.size() == 1) {
         for (const double radius :
-             radiiOf(amount, mixture[0].sizes, densityOf(scene, mixture[0]), region.volume(), options))
+             radiiOf(amount, mixture[0].sizes, densityOf(scene, mixture[0]), volume, options))
             bodies.push_back({&mixture[0], radius});
         return bodies;
     }
-    // A fraction of volume is one of mass, at the mean density.
-    const double fullMass = fullMassOf(scene, mixture, region.volume());  // kg
-    if (options.sample == Sample::Random) bodies = drawBodies(scene, mixture, amount, fullMass, options);
+    if (options.sample == Sample::Random) bodies = drawBodies(scene, mixture, amount, full, options);
     else {
         const std::vector<std::size_t> counts =
-            mixture.counts(countOf(amount, mixture.meanMass(scene.particles), fullMass));
+            mixture.counts(countOf(amount, mixture.meanMass(scene.particles), full));
         for (std::size_t k = 0; k < counts.size(); ++k)
             if (counts[k] > 0)
                 for (const double radius : exactRadii(mixture[k].sizes, counts[k]))
@@ -251,7 +251,7 @@ Inserted insertBodies(const InsertionScene& scene, const BodyMixture& mixture, c
                           0.5 * mixture[0].sizes.largest(), options.wholeGrains);
     const double full = fullMassOf(scene, mixture, region->volume());
     refuseMoreThanTheRegion(mixture, amount, region->volume(), full);
-    std::vector<PlacedBody> bodies = bodiesOf(scene, mixture, amount, *region, options);
+    std::vector<PlacedBody> bodies = bodiesOf(scene, mixture, amount, region->volume(), full, options);
     Inserted result;
     result.wanted = bodies.size();
     double mass = 0;  // kg

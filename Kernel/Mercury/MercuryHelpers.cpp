@@ -9,6 +9,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Files/FileFault.h"
 #include "Kernel/Files/TextFile.h"
 #include "Kernel/Species/Field.h"
 
@@ -21,10 +22,7 @@ void writeToFile(const std::string& file, const std::string& text) {
     if (!out) throw pendular::InputError(fmt::format("The file {} cannot be written.", file));
 }
 
-bool fileExists(const std::string& file) {
-    std::error_code ignored;
-    return std::filesystem::exists(file, ignored);
-}
+bool fileExists(const std::string& file) { return pendular::isThere(file); }
 
 std::size_t getSaveCountFromNumberOfSavesAndTimeMaxAndTimeStep(std::size_t saves, double timeMax,
                                                                double timeStep) {

@@ -173,8 +173,7 @@ Integrator schemeOfScene(const ContactLaws& species, const GrainSizes& grains, c
 }
 
 /// The stability limit (s) with these shares, of each present wall, of the springs and dashpots of walls that
-/// forces move. Their
-/// rows add up, as a grain may touch several.
+/// forces move. Their rows add up, as a grain may touch several.
 static double limitWithShares(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                               const Integrator& asked, const std::vector<double>& shares) {
     const Integrator integrator = schemeOfScene(species, grains, walls, asked);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "Kernel/Base/Parallel.h"
+#include "Kernel/Files/Deflate.h"
 
 namespace pendular {
 
@@ -175,7 +176,7 @@ std::string decompressBlocks(std::string_view data, std::size_t size) {
     for (std::size_t k = 0, from = begin; k < count; ++k) {
         const std::size_t length = numberAt(3 + k);
         if (from > data.size() || length > data.size() - from) throw std::runtime_error("ends too early");
-        if (partOf(k) / largestRatio > length) throw std::runtime_error("has data of the wrong size");
+        if (partOf(k) / largestDeflateRatio > length) throw std::runtime_error("has data of the wrong size");
         from += length;
     }
     std::string out(size, '\0');

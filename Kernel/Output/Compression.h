@@ -8,9 +8,6 @@
 
 namespace pendular {
 
-/// The most bytes that deflate packs into one. Source: J. Gailly, M. Adler, "zlib technical details".
-inline constexpr std::size_t largestRatio = 1032;
-
 /// Bytes in the form of vtkZLibDataCompressor: the number of blocks, the size of a block, that of the last
 /// one if it is smaller (else 0), the compressed size of each (unsigned integers of 64 bits), and the blocks,
 /// each a stream of zlib. Source: the VTK file formats, "Compressed data".

@@ -4,9 +4,9 @@
 
 #include <filesystem>
 #include <string_view>
-#include <system_error>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Files/FileFault.h"
 
 namespace pendular {
 
@@ -15,8 +15,7 @@ namespace pendular {
 /// @param read given the path, throws InputError
 template <class Read>
 void checkFrameIndex(const std::filesystem::path& index, Read&& read) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(index, ignored)) return;
+    if (!isThere(index)) return;
     try {
         read(index);
     } catch (const InputError& refused) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Files/FileFault.h"
 #include "Kernel/Files/OwnFile.h"
 #include "Kernel/Output/FieldFile.h"
 #include "Kernel/Output/FrameIndex.h"
@@ -70,8 +71,7 @@ std::vector<Hdf5Entry> readHdf5Series(const std::filesystem::path& path, const s
 void Hdf5Series::check(const std::string& name) { checkFrameIndex(indexOf(name), readIndex); }
 
 Hdf5Series::Times Hdf5Series::formerTimes(bool needed) const {
-    std::error_code ignored;
-    if (!std::filesystem::exists(indexOf(beginning), ignored)) return {};
+    if (!isThere(indexOf(beginning))) return {};
     try {
         return readIndex(indexOf(beginning));
     } catch (const InputError&) {

@@ -7,6 +7,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/SilentRank.h"
+#include "Kernel/Files/FileFault.h"
 #include "Kernel/Files/OwnFile.h"
 #include "Kernel/Files/TextFile.h"
 #include "Kernel/Files/WrittenBeside.h"
@@ -68,8 +69,7 @@ ParaViewSeries::ParaViewSeries(std::string name, double keptUntil, std::string f
 }
 
 std::vector<ParaViewEntry> ParaViewSeries::formerEntries(bool needed) const {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) return {};
+    if (!isThere(file)) return {};
     try {
         return readParaViewSeries(file);
     } catch (const InputError&) {

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Files/FileFault.h"
 
 namespace pendular {
 
@@ -52,9 +53,7 @@ void RunTable::visitState(StateArchive& archive) {
     archive.value(name + "-bytes", bytes);
     archive.value(name + "-checksum", checksum);
     if (!archive.isReading()) return;
-    std::error_code ignored;
-    const bool isThere = std::filesystem::exists(partOrWhole(place), ignored);
-    if (isThere && checksumOf(place, bytes) != checksum)
+    if (isThere(partOrWhole(place)) && checksumOf(place, bytes) != checksum)
         throw InputError(
             fmt::format("The table {} is not the one that the run wrote which the restart file is of: bring "
                         "that back, or give another folder for the output.",

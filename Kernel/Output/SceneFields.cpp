@@ -29,14 +29,16 @@ namespace {
 
 /// Adds the wear of each polygon, where a wall keeps it; zeros for walls that do not.
 void addWear(PolyData& data, const WallHandler& walls, const std::vector<WallSurface>& surfaces) {
-    if (wornWalls(walls).empty()) return;
+    const std::vector<NumberedWornWall> worn = wornWalls(walls);
+    if (worn.empty()) return;
     const auto add = [&](std::string name, auto&& numberOf) {
         std::vector<double> numbers;
+        auto next = worn.begin();
         for (std::size_t w = 0; w < surfaces.size(); ++w) {
-            const auto* const wall = dynamic_cast<const WornWall*>(walls.present()[w].object.get());
-            const bool wears = wall && wall->keepsWear();
+            const bool wears = next != worn.end() && next->number == walls.present()[w].number;
             for (std::size_t k = 0; k < surfaces[w].polygons.size(); ++k)
-                numbers.push_back(wears ? numberOf(wall->wearOf(k)) : 0);
+                numbers.push_back(wears ? numberOf(next->wall->wearOf(k)) : 0);
+            if (wears) ++next;
         }
         data.cellFields.push_back({std::move(name), 1, std::move(numbers)});
     };

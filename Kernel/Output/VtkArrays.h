@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "Kernel/Files/Deflate.h"
 #include "Kernel/Files/TextFile.h"
 #include "Kernel/Output/Compression.h"
 #include "Kernel/Output/PolyData.h"
@@ -129,7 +130,7 @@ public:
 
     /// Throws unless the file can have so many bytes of numbers.
     void requireRoom(std::size_t bytes) const {
-        if (bytes / largestRatio > appended.size()) throw std::runtime_error("ends too early");
+        if (bytes / largestDeflateRatio > appended.size()) throw std::runtime_error("ends too early");
     }
 
 private:

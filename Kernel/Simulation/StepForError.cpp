@@ -528,8 +528,7 @@ std::string StepForError::text() const {
     if (known)
         said += fmt::format(
             "collisions at {:.4g} m/s are computed with an error of at most {:.2g} of the speed, {:.2g} in "
-            "the "
-            "mean ({}).",
+            "the mean ({}).",
             speed, largest, mean, nameOf(species1, species2, atWall));
     else if (together)
         said += fmt::format("at {:.4g} m/s all bodies stay together, so their error is not known.", speed);

@@ -4,6 +4,7 @@
 
 #include <cerrno>
 
+#include "Kernel/Files/Deflate.h"
 #include "Kernel/Files/FileFault.h"
 #include "Kernel/Files/OwnFile.h"
 #include "Kernel/Files/WrittenBeside.h"
@@ -51,12 +52,11 @@ struct Alone {
     const hdf5::WithoutMessages messages{};
 };
 
-/// The most bytes of numbers that a table can have by what is stored of it. Deflate packs 1032 bytes into
-/// one.
+/// The most bytes of numbers that a table can have by what is stored of it.
 double mostBytes(hid_t set, double stored, double fileSize) {
     const Object creation(H5Dget_create_plist(set), H5Pclose);  // to ask takes longer than all the rest
     if (H5Pget_layout(creation) != H5D_CHUNKED) return fileSize;
-    return (H5Pget_nfilters(creation) > 0 ? 1032 : 1) * std::min(stored, fileSize);
+    return (H5Pget_nfilters(creation) > 0 ? largestDeflateRatio : 1) * std::min(stored, fileSize);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 
+#include "Kernel/Files/FileFault.h"
 #include "Kernel/Files/TextFile.h"
 #include "Kernel/Output/ParaViewSeries.h"
 #include "Kernel/Output/PolyData.h"
@@ -20,8 +21,7 @@ struct Frame {
 };
 
 inline PolyData readIfThere(const std::filesystem::path& path) {
-    std::error_code ignored;
-    return std::filesystem::exists(path, ignored) ? readPolyData(path) : PolyData{};
+    return isThere(path) ? readPolyData(path) : PolyData{};
 }
 
 /// NAME-contacts-STEP.vtp beside NAME-particles-STEP.vtp; empty if the file has another name.
@@ -37,9 +37,7 @@ inline std::filesystem::path fileBeside(const std::filesystem::path& particles, 
     const std::string name = nameBeside(particles.filename().string(), kind);
     if (name.empty()) return {};
     std::filesystem::path beside = particles.parent_path() / name;
-    std::error_code ignored;
-    if (beside.extension() == ".pvtp" && !std::filesystem::exists(beside, ignored))
-        beside.replace_extension(".vtp");
+    if (beside.extension() == ".pvtp" && !isThere(beside)) beside.replace_extension(".vtp");
     return beside;
 }
 

@@ -12,20 +12,13 @@ namespace {
 
 constexpr std::string_view lockEnding = ".pendular-lock";
 
-/// 0, or the reason for which there is no lock.
-int lock(const Descriptor& file) {
-    while (flock(file.get(), LOCK_EX | LOCK_NB) != 0)
-        if (errno != EINTR) return errno;
-    return 0;
-}
-
 std::string processOf(pid_t process) { return process > 0 ? fmt::format(" (process {})", process) : ""; }
 
 /// Where another has the lock, says so. Where the file system knows no locks, there is none.
 HeldLock lockFile(const OpenFolder& folder, const std::string& name, std::string_view whatIfTaken) {
     for (int tries = 0; tries < 100; ++tries) {
         Descriptor file = folder.append(name);
-        if (lock(file) == EWOULDBLOCK)
+        if (tryLock(file.get()) == EWOULDBLOCK)
             throw InputError(fmt::format("{}{}.", whatIfTaken, processOf(Locks().holderOf(folder, name))));
         if (folder.isAt(name, file))
             return HeldLock(std::move(file));  // else another has replaced it meanwhile
