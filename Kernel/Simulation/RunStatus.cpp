@@ -35,7 +35,8 @@ std::string programOfSummary(const std::string& run) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) return {};
     try {
-        for (const SummaryFile::Row& row : SummaryFile(path).rows())
+        const SummaryFile summary(path);
+        for (const SummaryFile::Row& row : summary.rows())
             if (row.quantity == "program") return row.value;
     } catch (const InputError&) {}  // it is no summary
     return {};
