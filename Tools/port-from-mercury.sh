@@ -4,10 +4,13 @@
 #   Tools/port-from-mercury.sh [--driver FILE.cpp] > ported.cpp
 #   Tools/port-from-mercury.sh [--classify FOLDER] [--build build/release] > programs.tsv
 # --driver FILE       prints the driver with these changes
-# --classify FOLDER   ports all .cpp files with a main() below the folder, has the compiler check each, and prints a
-#                     table: class (unchanged; few: below 10 lines; more; no: from 60 on), the lines that do not
-#                     compile after the mechanical changes, the program, the first faults. The programs are not run.
-# --build FOLDER      a configured build, for the headers that it writes
+# --classify FOLDER   ports all .cpp files with a main() below the folder and the headers beside them, compiles each
+#                     (syntax only), and prints a table: class (unchanged; few: below 10 lines; more; no: from 60 on;
+#                     unknown: headers are missing), the lines that do not compile after the mechanical changes, the
+#                     program, the missing headers and the first errors. A missing header is replaced by an empty one,
+#                     so that the errors behind it are counted; what it declares is an error wherever it is used.
+#                     The programs are not run: that a program compiles does not show that it runs here.
+# --build FOLDER      a configured build, for the headers that it writes and its compiler ($CXX takes precedence)
 set -euo pipefail
 tools=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 driver="" classify="" build="$(dirname "$tools")/build/release"
@@ -51,15 +54,44 @@ port() {
 # The class of a program by the lines that do not compile.
 class_of() { if (($1 == 0)); then echo unchanged; elif (($1 < 10)); then echo few; elif (($1 < 60)); then echo more; else echo no; fi; }
 
-# A row of the table. A line counts once: with a fault of its own, or with one in a header that it leads to.
+# check -E, check -fsyntax-only: the compiler's messages on the ported program, in $work/faults.
+check() { "$compiler" "${flags[@]}" "$1" "$work/ported.cpp" >/dev/null 2>"$work/faults" || true; }
+# The header at which the compiler has stopped, by g++'s or clang's message.
+header_not_found() {
+    sed -nE "s/^.*fatal error: '?([^' :]+)'?(: No such file or directory| file not found).*/\\1/p" "$work/faults" | head -1
+}
+
+# Provides the headers of the program in $1 that the library does not have: those beside it are ported, too; the others
+# are empty, and named in the array missing. They are in a deep folder, for paths that begin with "../".
+provide_headers() {
+    local header place
+    rm -rf "$work/headers" && mkdir -p "$own" && missing=()
+    while check -E; header=$(header_not_found); [[ -n $header && ! -e $own/$header ]]; do
+        # Folder by folder, as ".." is looked up only behind a folder that is there.
+        place=$own/$header
+        mkdir -p "$(dirname "$place")" 2>/dev/null || break
+        if [[ -f $(dirname "$1")/$header ]]; then port "$(dirname "$1")/$header" >"$place"; else : >"$place" && missing+=("$header"); fi
+    done
+    [[ -z $header ]] || missing+=("$header")
+}
+
+# A row of the table. A line counts once: with a fault of its own, or with one in a header that it leads to. Lines of
+# headers beside the program count with it.
 row() {
     port "$1" >"$work/ported.cpp"
-    "${CXX:-g++}" "${flags[@]}" "$work/ported.cpp" 2>"$work/faults" || true
-    local lines first
-    lines=$({ grep -E "^$work/ported.cpp:[0-9]+:[0-9]+: +((fatal )?error|required from here)" "$work/faults" || true; } |
-                cut -d: -f2 | sort -un | wc -l)
+    provide_headers "$1"
+    check -fsyntax-only
+    local lines first kind
+    lines=$({ grep -E "^$work/[^:]+:[0-9]+:[0-9]+: +((fatal )?error|required from here)" "$work/faults" || true; } |
+                cut -d: -f1,2 | sort -u | wc -l)
     first=$({ grep -m 3 -oE 'error: .*' "$work/faults" || true; } | sed 's/^error: //' | tr '\n\t' '; ')
-    printf '%s\t%s\t%s\t%s\n' "$(class_of "$lines")" "$lines" "$(basename "$1" .cpp)" "$first"
+    kind=$(class_of "$lines")
+    if ((${#missing[@]} > 0)); then
+        kind=unknown
+        printf -v first '%s, ' "${missing[@]}"
+        first="not known: headers ${first%, } are missing; $lines lines fail with empty ones in their place"
+    fi
+    printf '%s\t%s\t%s\t%s\n' "$kind" "$lines" "$(basename "$1" .cpp)" "$first"
 }
 
 if [[ -n $driver ]]; then
@@ -68,9 +100,14 @@ elif [[ -n $classify ]]; then
     [[ -d $classify ]] || refuse "--classify is '$classify'; there is no such folder"
     headers=$build/Generated
     [[ -d $headers/MercuryHeaders ]] || refuse "there is no folder $headers/MercuryHeaders; configure a build first, or give its folder with --build"
-    flags=(-std=c++20 -fsyntax-only -fmax-errors=0 -w -I "$(dirname "$tools")" -I "$headers" -I "$headers/MercuryHeaders"
-           -isystem /usr/include/eigen3)
+    compiler=${CXX:-$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt")}
     work=$(mktemp -d)
+    own=$work/headers/1/2/3/4/5/6
+    # No limit of errors is -fmax-errors=0 for g++, -ferror-limit=0 for clang.
+    limit=-fmax-errors=0
+    if "$compiler" --version | grep -q clang; then limit=-ferror-limit=0; fi
+    flags=(-std=c++20 "$limit" -w -I "$(dirname "$tools")" -I "$headers" -I "$headers/MercuryHeaders" -I "$own"
+           -isystem /usr/include/eigen3)
     trap 'rm -rf "$work"' EXIT
     printf 'class\tlines_to_change\tprogram\tmissing\n'
     while read -r program; do row "$program"; done < <(grep -rlE --include='*.cpp' '^[[:space:]]*int main' "$classify" | sort)

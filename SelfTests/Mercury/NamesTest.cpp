@@ -234,6 +234,29 @@ TEST(MercuryNames, theScriptMakesTheMechanicalChanges) {
         EXPECT_EQ(ported(there), std::string(here) + '\n');
 }
 
+// A program whose headers are missing is of no class by its lines, all of the headers are named, and the lines
+// behind them are counted; a header beside a program is a part of it.
+TEST(MercuryNames, theScriptNamesMissingHeaders) {
+    const TestFolder folder;
+    const auto write = [&](const char* name, const char* text) {
+        helpers::writeToFile((folder.path() / name).string(), text);
+    };
+    write("missing.cpp",
+          "#include \"None.h\"\n#include <None/Other.h>\n#include \"../../None/Third.h\"\n"
+          "int main() {\n    return gone() + away();\n}\nint other() {\n    return lost();\n}\n");
+    write("beside.h", "inline int f() {\n    return gone();\n}\n");
+    write("more.cpp", "#include \"beside.h\"\nint main() {\n    return f() + away();\n}\n");
+    write("unchanged.cpp", "int main() {}\n");
+    const support::ProgramResult result =
+        support::run((folders::source / "Tools/port-from-mercury.sh").string() + " --classify " +
+                     folder.path().string() + " --build " + folders::binary.string() + " 2>&1");
+    EXPECT_EQ(result.exitCode, 0) << result.output;
+    for (const char* const row :
+         {"\nunknown\t2\tmissing\tnot known: headers None.h, None/Other.h, ../../None/Third.h are missing; 2 lines",
+          "\nfew\t2\tmore\t", "\nunchanged\t0\tunchanged\t"})
+        EXPECT_TRUE(contains(result.output, row)) << result.output;
+}
+
 // Each row names tests that there are, and the page says what the table does.
 TEST(MercuryNames, theTableOfProgramsIsWhole) {
     const support::ProgramResult result =
