@@ -18,7 +18,6 @@ namespace {
 
 using scenes::FewGrains;
 using scenes::SettlingBox;
-using support::bodiesOf;
 using support::Body;
 using support::quantumOf;
 using support::ReferenceForces;
@@ -42,12 +41,12 @@ TYPED_TEST(ForceSum, isThatOfPlainLoopsOverAllPairs) {
     ReferenceForces<TypeParam> reference;
     const auto& grains = scene.particleHandler.store();
     const double step = scene.getTimeStep();
-    std::vector<Body> bodies = bodiesOf(grains);
+    std::vector<Body> bodies = support::bodiesOf(grains);
     double contacts = 0;
     for (int n = 0; n < 1000; ++n) {
         std::vector<Body> seen = bodies;
         scene.step();
-        bodies = bodiesOf(grains);
+        bodies = support::bodiesOf(grains);
         for (std::size_t k = 0; k < bodies.size(); ++k) {
             seen[k].velocity += step * seen[k].acceleration;
             seen[k].spin += step * seen[k].angularAcceleration;
@@ -84,7 +83,7 @@ TYPED_TEST(ForceSum, isZeroOverAllGrainsWithoutWalls) {
         scene.step();
         Vector<double> force{0, 0, 0}, torque{0, 0, 0};
         double forceScale = 0, distance = 0;
-        for (const Body& body : bodiesOf(scene.particleHandler.store())) {
+        for (const Body& body : support::bodiesOf(scene.particleHandler.store())) {
             const double mass = 1 / body.inverseMass;
             const Vector<double> own = mass * body.acceleration;
             force += own;
