@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
 """Which of MercuryDPM's public programs port, with how many lines: SelfTests/Mercury/programs.tsv, and the page beside it.
 
-usage: mercury-programs.py [--list FILE] [--check] [--write]
+usage: mercury-programs.py [--list FILE] [--table FILE] [--check] [--write]
 
-Its columns: the program; the lines that change after port-from-mercury.sh ("-": it does not port); where that is from
-(test: it is a test here; read: its source was read beside MercuryScene.h; list: the count of an earlier list); its tests;
-what changes, or is missing. Lines are counted by hand, not compiled.
-Prints the programs by class: few (below 10 lines), more, no.
+Its columns: the program; the lines that change after port-from-mercury.sh ("-": it does not run here); where that is from
+(test: it is a test here; run: it was ported, compiled and run by hand; read: its source was read beside MercuryScene.h;
+list: the count of an earlier list); whether the whole program was run, and its figures compared; its tests; what changes,
+or is missing. The fourth column is "yes: FIGURE, by REFERENCE", "in part: WHAT", or "no", with a reason after a colon.
+Only rows with "yes" count as ports; the lines of "read" and "list" were counted by hand, and the program was never run.
+Prints the programs by class (few: below 10 lines; more; no), and how many of each were run whole.
   --list FILE  all of its programs (class, lines, program, what was missing): the table must have each that is not
                "internal" there; and prints how the classes have changed
+  --table FILE another table than SelfTests/Mercury/programs.tsv
   --check      the exit code is 1 if a row, a test or the page is wrong
   --write      writes the part of the page that follows from the table
 """
@@ -22,15 +25,39 @@ FOLDER = Path(__file__).resolve().parent.parent / "SelfTests" / "Mercury"
 PAGE = FOLDER / "README.md"
 BEGIN, END = "<!-- by Tools/mercury-programs.py --write -->\n", "<!-- until here -->\n"
 CLASSES = ("few", "more", "no")
+RUN = "run whole, figures compared"
+# What a figure may be compared with: a stored file, asserted values, a formula, an integration, the program there.
+REFERENCES = r"(its|the) \.\w+|its source|a closed form|its steps written anew|brute force|a run of MercuryDPM"
 
 
 def table_of(path):
     head, *rows = path.read_text().splitlines()
-    return [dict(zip(head.split("\t"), (row + "\t" * 4).split("\t"))) for row in rows]
+    return [dict(zip(head.split("\t"), (row + "\t" * 5).split("\t"))) for row in rows]
 
 
 def class_of(row):
     return "no" if row["lines"] == "-" else "few" if int(row["lines"]) < 10 else "more"
+
+
+def ran(row):
+    """How much of the program was run: yes, in part, or no."""
+    return row[RUN].partition(":")[0]
+
+
+def fault_of_run(row):
+    """What is wrong with the column of the run, if anything."""
+    kind, _, rest = row[RUN].partition(": ")
+    if kind not in ("yes", "in part", "no") or (":" in row[RUN]) != bool(rest):
+        return f"'{row[RUN]}' is not 'yes: ...', 'in part: ...', 'no' or 'no: ...'"
+    if kind == "in part" and not rest:
+        return "'in part' does not say of what"
+    if kind == "yes" and not re.fullmatch(rf".+, by ({REFERENCES})( .*|, .*)?", rest):
+        return f"'{row[RUN]}' lacks a figure, or what it was compared with"
+    if kind != "no" and (row["lines"] == "-" or row["from"] not in ("test", "run")):
+        return f"it has '{kind}', but {row['lines']} lines from '{row['from']}'"
+    if kind == "no" and row["from"] == "test" and row["lines"] != "-":
+        return "it is a test, and has 'no'"
+    return None
 
 
 def faults_of(rows):
@@ -39,29 +66,44 @@ def faults_of(rows):
         if count > 1:
             yield f"{name} is there {count} times"
     for row in rows:
-        if not re.fullmatch(r"-|\d+", row["lines"]) or row["from"] not in ("test", "read", "list"):
+        if not re.fullmatch(r"-|\d+", row["lines"]) or row["from"] not in ("test", "run", "read", "list"):
             yield f"{row['program']}: {row['lines']} lines from '{row['from']}'"
         if (row["from"] == "test") != bool(row["tests"]):
             yield f"{row['program']}: 'test' and tests do not fit each other"
+        if fault := fault_of_run(row):
+            yield f"{row['program']}: {fault}"
         for test in set(row["tests"].split()) - tests:
             yield f"{row['program']}: there is no test {test}"
 
 
+def by_reason(rows):
+    """Lines of the page: programs with the same reason together, those without one last."""
+    reasons = {}
+    for row in rows:
+        reasons.setdefault(row["changed or missing"], []).append(row["program"])
+    for reason, programs in sorted(reasons.items(), key=lambda pair: (pair[0] == "", pair[0].lower())):
+        yield f"- {', '.join(programs)}" + (f": {reason}" if reason else "")
+
+
 def part_of_page(rows):
-    lines = [f"Of {len(rows)} programs that do not test MercuryDPM's own internals:", "",
-             "| lines that change | programs | as tests here | source read | by an earlier list |", "|---|---|---|---|---|"]
-    words = {"few": "below 10", "more": "10 and more", "no": "it does not port"}
+    of = {name: [row for row in rows if class_of(row) == name] for name in CLASSES}
+    counts = {name: Counter(ran(row) for row in of[name]) for name in CLASSES}
+    few, no = counts["few"], len(of["no"])
+    lines = [f"Of {len(rows)} programs that do not test MercuryDPM's own internals, **{few['yes']} port with fewer than 10 lines: they",
+             f"were run whole, and their figures compared.** Of {few['in part']} more below 10 lines a part was run or compared; the lines",
+             f"of another {few['no']} were counted by hand, and the programs were not run. **{no} do not run here at all.**", "",
+             "| lines that change | programs | run whole, figures compared | in part | not run |", "|---|---|---|---|---|"]
+    words = {"few": "below 10", "more": "10 and more", "no": "it does not run here"}
     for name in CLASSES:
-        counts = Counter(row["from"] for row in rows if class_of(row) == name)
-        lines.append(f"| {words[name]} | {sum(counts.values())} | {counts['test']} | {counts['read']} | {counts['list']} |")
-    for name, title in (("few", "Below 10 lines, without a test"), ("more", "10 lines and more"), ("no", "Not at all")):
-        found = [row for row in rows if class_of(row) == name and (name != "few" or row["from"] != "test")]
-        lines += ["", f"**{title}:**", ""]
-        reasons = {}
-        for row in found:
-            reasons.setdefault(row["changed or missing"], []).append(row["program"])
-        for reason, programs in sorted(reasons.items(), key=lambda pair: (pair[0] == "", pair[0].lower())):
-            lines.append(f"- {', '.join(programs)}" + (f": {reason}" if reason else ""))
+        lines.append(f"| {words[name]} | {len(of[name])} | {counts[name]['yes']} | {counts[name]['in part']} | {counts[name]['no']} |")
+    lines += ["", "**Run whole, figures compared** (in brackets the lines that change):", ""]
+    lines += [f"- {row['program']} ({row['lines']}): {row[RUN].partition(': ')[2]}" for row in rows if ran(row) == "yes"]
+    lines += ["", "**In part, outside of the tests above:**", ""]
+    lines += [f"- {row['program']} ({row['lines']}): {row[RUN].partition(': ')[2]}"
+              for row in rows if ran(row) == "in part" and row["from"] == "run"]
+    for title, found in (("Below 10 lines, counted by hand, not run", [row for row in of["few"] if ran(row) == "no"]),
+                         ("10 lines and more", of["more"]), ("Not at all", of["no"])):
+        lines += ["", f"**{title}:**", "", *by_reason(found)]
     return "\n".join(lines) + "\n"
 
 
@@ -79,13 +121,15 @@ def compare(rows, path):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--list", type=Path)
+    parser.add_argument("--table", type=Path, default=FOLDER / "programs.tsv")
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--write", action="store_true")
     asked = parser.parse_args()
-    rows = table_of(FOLDER / "programs.tsv")
+    rows = table_of(asked.table)
     faults = list(faults_of(rows))
     for name in CLASSES:
-        print(f"{name}: {sum(class_of(row) == name for row in rows)} of {len(rows)}")
+        found = [row for row in rows if class_of(row) == name]
+        print(f"{name}: {len(found)} of {len(rows)}, {sum(ran(row) == 'yes' for row in found)} run whole with figures compared")
     if asked.list is None or not asked.list.is_file():
         print(f"SKIPPED: the table is not compared with a list of all programs: "
               f"{'no --list' if asked.list is None else f'no file {asked.list}'}.", file=sys.stderr)

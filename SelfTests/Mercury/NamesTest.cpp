@@ -234,8 +234,8 @@ TEST(MercuryNames, theScriptMakesTheMechanicalChanges) {
         EXPECT_EQ(ported(there), std::string(here) + '\n');
 }
 
-// A program whose headers are missing is of no class by its lines, all of the headers are named, and the lines
-// behind them are counted; a header beside a program is a part of it.
+// A program whose headers are missing is of no class by its lines, all of the headers are named, and the
+// lines behind them are counted; a header beside a program is a part of it.
 TEST(MercuryNames, theScriptNamesMissingHeaders) {
     const TestFolder folder;
     const auto write = [&](const char* name, const char* text) {
@@ -251,9 +251,9 @@ TEST(MercuryNames, theScriptNamesMissingHeaders) {
         support::run((folders::source / "Tools/port-from-mercury.sh").string() + " --classify " +
                      folder.path().string() + " --build " + folders::binary.string() + " 2>&1");
     EXPECT_EQ(result.exitCode, 0) << result.output;
-    for (const char* const row :
-         {"\nunknown\t2\tmissing\tnot known: headers None.h, None/Other.h, ../../None/Third.h are missing; 2 lines",
-          "\nfew\t2\tmore\t", "\nunchanged\t0\tunchanged\t"})
+    for (const char* const row : {"\nunknown\t2\tmissing\tnot known: headers None.h, None/Other.h, "
+                                  "../../None/Third.h are missing; 2 lines",
+                                  "\nfew\t2\tmore\t", "\nunchanged\t0\tunchanged\t"})
         EXPECT_TRUE(contains(result.output, row)) << result.output;
 }
 
@@ -263,6 +263,33 @@ TEST(MercuryNames, theTableOfProgramsIsWhole) {
         support::run("python3 " + (folders::source / "Tools/mercury-programs.py").string() + " --check 2>&1");
     EXPECT_EQ(result.exitCode, 0) << result.output;
     EXPECT_TRUE(contains(result.output, " of 175")) << result.output;
+}
+
+// A program counts as ported only with a figure and what it was compared with, and where it was run.
+TEST(MercuryNames, theTableOfProgramsIsChecked) {
+    const TestFolder folder;
+    const auto faultsOf = [&](const std::string& row) {
+        helpers::writeToFile(
+            folder.name(),
+            "program\tlines\tfrom\trun whole, figures compared\ttests\tchanged or missing\n" + row + '\n');
+        const support::ProgramResult result =
+            support::run("python3 " + (folders::source / "Tools/mercury-programs.py").string() +
+                         " --check --table " + folder.name() + " 2>&1");
+        EXPECT_EQ(result.exitCode, 1) << result.output;  // the page is that of the whole table
+        return result.output;
+    };
+    for (const char* const row :
+         {"A\t1\trun\tyes: place to 1e-3 m, by its .restart\t\t", "A\t12\trun\tin part: to 1 s of 2 s\t\t",
+          "A\t-\tread\tno: refused\t\tcharges", "A\t3\tread\tno\t\t"})
+        EXPECT_FALSE(contains(faultsOf(row), "A: ")) << row;
+    for (const auto& [row, fault] : std::array<std::pair<const char*, const char*>, 6>{
+             {{"A\t1\trun\tyes\t\t", "A: 'yes' lacks a figure"},
+              {"A\t1\trun\tyes: place to 1e-3 m\t\t", "lacks a figure, or what it was compared with"},
+              {"A\t1\tread\tyes: place, by its source\t\t", "A: it has 'yes', but 1 lines from 'read'"},
+              {"A\t-\trun\tyes: place, by its source\t\t", "A: it has 'yes', but - lines"},
+              {"A\t1\trun\tin part\t\t", "A: 'in part' does not say of what"},
+              {"A\t1\trun\tperhaps\t\t", "A: 'perhaps' is not"}}})
+        EXPECT_TRUE(contains(faultsOf(row), fault)) << row << ": " << faultsOf(row);
 }
 
 TEST(MercuryNames, helpersReadTheCommandLine) {
