@@ -6,7 +6,8 @@ usage: mercury-programs.py [--list FILE] [--table FILE] [--check] [--write]
 Its columns: the program; the lines that change after port-from-mercury.sh ("-": it does not run here); where that is from
 (test: it is a test here; run: it was ported, compiled and run by hand; read: its source was read beside MercuryScene.h;
 list: the count of an earlier list); whether the whole program was run, and its figures compared; its tests; what changes,
-or is missing. The fourth column is "yes: FIGURE, by REFERENCE", "in part: WHAT", or "no", with a reason after a colon.
+or is missing. The fourth column is "yes: FIGURE, by REFERENCE", "in part: WHAT", or "no", with a reason after a colon. A
+program whose test is, by the page, another scene was not run.
 Only rows with "yes" count as ports; the lines of "read" and "list" were counted by hand, and the program was never run.
 Prints the programs by class (few: below 10 lines; more; no), and how many of each were run whole.
   --list FILE  all of its programs (class, lines, program, what was missing): the table must have each that is not
@@ -55,12 +56,21 @@ def fault_of_run(row):
         return f"'{row[RUN]}' lacks a figure, or what it was compared with"
     if kind != "no" and (row["lines"] == "-" or row["from"] not in ("test", "run")):
         return f"it has '{kind}', but {row['lines']} lines from '{row['from']}'"
-    if kind == "no" and row["from"] == "test" and row["lines"] != "-":
-        return "it is a test, and has 'no'"
+    if kind == "no" and row["from"] == "test" and not rest:
+        return "it is a test, and has 'no' without a reason"
     return None
 
 
-def faults_of(rows):
+def in_another_scene(page):
+    """The programs whose tests are, by the page's table of tests, in a scene of our own."""
+    for line in page.splitlines():
+        cells = [cell.strip() for cell in line.split("|")]
+        if len(cells) == 8 and cells[4].startswith("another scene"):
+            yield from cells[1].split(", ")
+
+
+def faults_of(rows, page):
+    other_scenes = set(in_another_scene(page))
     tests = set(re.findall(r"TEST\(MercuryPrograms, (\w+)\)", "".join(p.read_text() for p in FOLDER.glob("*.cpp"))))
     for name, count in Counter(row["program"] for row in rows).items():
         if count > 1:
@@ -72,6 +82,8 @@ def faults_of(rows):
             yield f"{row['program']}: 'test' and tests do not fit each other"
         if fault := fault_of_run(row):
             yield f"{row['program']}: {fault}"
+        elif ran(row) != "no" and row["program"] in other_scenes:
+            yield f"{row['program']}: it has '{ran(row)}', but its test is another scene"
         for test in set(row["tests"].split()) - tests:
             yield f"{row['program']}: there is no test {test}"
 
@@ -90,8 +102,8 @@ def part_of_page(rows):
     counts = {name: Counter(ran(row) for row in of[name]) for name in CLASSES}
     few, no = counts["few"], len(of["no"])
     lines = [f"Of {len(rows)} programs that do not test MercuryDPM's own internals, **{few['yes']} port with fewer than 10 lines: they",
-             f"were run whole, and their figures compared.** Of {few['in part']} more below 10 lines a part was run or compared; the lines",
-             f"of another {few['no']} were counted by hand, and the programs were not run. **{no} do not run here at all.**", "",
+             f"were run whole, and their figures compared.** The others do not count as ports: of {few['in part']} more below 10 lines",
+             f"a part was run or compared, another {few['no']} were counted by hand, and not run. **{no} do not run here at all.**", "",
              "| lines that change | programs | run whole, figures compared | in part | not run |", "|---|---|---|---|---|"]
     words = {"few": "below 10", "more": "10 and more", "no": "it does not run here"}
     for name in CLASSES:
@@ -126,7 +138,8 @@ def main():
     parser.add_argument("--write", action="store_true")
     asked = parser.parse_args()
     rows = table_of(asked.table)
-    faults = list(faults_of(rows))
+    page = PAGE.read_text()
+    faults = list(faults_of(rows, page))
     for name in CLASSES:
         found = [row for row in rows if class_of(row) == name]
         print(f"{name}: {len(found)} of {len(rows)}, {sum(ran(row) == 'yes' for row in found)} run whole with figures compared")
@@ -135,7 +148,7 @@ def main():
               f"{'no --list' if asked.list is None else f'no file {asked.list}'}.", file=sys.stderr)
     else:
         faults += compare(rows, asked.list)
-    before, _, rest = PAGE.read_text().partition(BEGIN)
+    before, _, rest = page.partition(BEGIN)
     _, _, after = rest.partition(END)
     whole = before + BEGIN + part_of_page(rows) + END + after
     if asked.write and not faults:

@@ -282,8 +282,11 @@ TEST(MercuryNames, theTableOfProgramsIsChecked) {
          {"A\t1\trun\tyes: place to 1e-3 m, by its .restart\t\t", "A\t12\trun\tin part: to 1 s of 2 s\t\t",
           "A\t-\tread\tno: refused\t\tcharges", "A\t3\tread\tno\t\t"})
         EXPECT_FALSE(contains(faultsOf(row), "A: ")) << row;
-    for (const auto& [row, fault] : std::array<std::pair<const char*, const char*>, 6>{
+    for (const auto& [row, fault] : std::array<std::pair<const char*, const char*>, 8>{
              {{"A\t1\trun\tyes\t\t", "A: 'yes' lacks a figure"},
+              {"DropletBoundarySelfTest\t3\ttest\tin part: a droplet\tdropletBoundary\t",
+               "it has 'in part', but its test is another scene"},
+              {"A\t3\ttest\tno\tfreeFall\t", "A: it is a test, and has 'no' without a reason"},
               {"A\t1\trun\tyes: place to 1e-3 m\t\t", "lacks a figure, or what it was compared with"},
               {"A\t1\tread\tyes: place, by its source\t\t", "A: it has 'yes', but 1 lines from 'read'"},
               {"A\t-\trun\tyes: place, by its source\t\t", "A: it has 'yes', but - lines"},
