@@ -44,6 +44,7 @@ function(pendular_find_core sources)
     endwhile()
     set(headers ${core})
     list(FILTER headers INCLUDE REGEX "\\.h$")
+    list(FILTER headers EXCLUDE REGEX "${notInCore}")  # who includes one of these itself calls it
     list(FILTER core INCLUDE REGEX "\\.cpp$")
     list(FILTER core EXCLUDE REGEX "${notInCore}")
     list(SORT core)
