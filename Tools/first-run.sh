@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # From a clone to the first simulation: installs the packages that are missing, configures, builds and runs one driver,
-# and says where its pictures are. On Debian 12 or 13 it takes some four minutes of one processor.
+# and says where its frames are. On Debian 12 or 13 it takes some four minutes of one processor.
 #   Tools/first-run.sh [--driver WetTower] [--jobs N]
 # --driver NAME   a driver in the folder Drivers; those that need all of the kernel take some minutes longer
 # --jobs N        files that are compiled at the same time; default: one for each processor, fewer where there is not
