@@ -4,6 +4,7 @@
 #include <array>
 
 #include "Drivers/Shared/CommandLine.h"
+#include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"
 
 using namespace pendular;

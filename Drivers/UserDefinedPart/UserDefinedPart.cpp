@@ -5,6 +5,7 @@
 
 #include "Drivers/Shared/CommandLine.h"
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Simulation/Simulation.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Step/SummaryRows.h"
 

@@ -25,15 +25,16 @@ public:
     FluxInFlow(const PeriodicBox& before, const PeriodicBox& after, double step, const Plane& of)
         : box0(before), box1(after), plane(of), shift0(before.imageShift), shift1(after.imageShift) {
         for (int k = 0; k < 3; ++k)
-            if (after.across.*axes[k] > 0) gradient = k;
+            if (after.across.*vectorAxes[k] > 0) gradient = k;
         if (gradient < 0) return;
         for (int k = 0; k < 3; ++k)
-            if (k != gradient && (after.imageVelocity.*axes[k] != 0 || before.imageShift.*axes[k] != 0 ||
-                                  after.imageShift.*axes[k] != 0))
+            if (k != gradient &&
+                (after.imageVelocity.*vectorAxes[k] != 0 || before.imageShift.*vectorAxes[k] != 0 ||
+                 after.imageShift.*vectorAxes[k] != 0))
                 flow = k;
         if (flow < 0) return;
         // The box knows the shift up to whole periods.
-        const auto along = axes[static_cast<std::size_t>(flow)];
+        const auto along = vectorAxes[static_cast<std::size_t>(flow)];
         const double slid = shift0.*along + step * after.imageVelocity.*along;
         periodsSlid = std::nearbyint((slid - shift1.*along) / after.length.*along);
         shift1.*along += periodsSlid * after.length.*along;
@@ -52,9 +53,9 @@ public:
     }
 
 private:
-    static constexpr std::array<double Vector<double>::*, 3> axes{&Vector<double>::x, &Vector<double>::y,
-                                                                  &Vector<double>::z};
-    static double along(const Vector<double>& v, int axis) { return v.*axes[static_cast<std::size_t>(axis)]; }
+    static double along(const Vector<double>& v, int axis) {
+        return v.*vectorAxes[static_cast<std::size_t>(axis)];
+    }
 
     template <class Found>
     void alongNoPeriod(const Vector<double>& from, const Vector<double>& to, Found&& found) const {
@@ -116,7 +117,7 @@ private:
         Vector<double> way = to - from - number * (shift1 - shift0);
         const Vector<double> inside = gradient < 0 ? to : to - number * shift1;
         for (int k = 0; k < 3; ++k) {
-            const auto axis = axes[static_cast<std::size_t>(k)];
+            const auto axis = vectorAxes[static_cast<std::size_t>(k)];
             const double length = box1.length.*axis;
             if (k == gradient || length == 0 || length == box0.length.*axis) continue;
             const double images =

@@ -14,42 +14,42 @@ namespace pendular {
 
 namespace {
 
-constexpr std::string_view owner = "Spray";
+constexpr std::string_view ownerOfSpray = "Spray";
 
 /// What the random numbers of a droplet are for.
 enum Purpose : std::uint32_t { Place1, Place2, Angle, Azimuth, Size, PurposeCount };
 
 /// Unit, across a unit vector, in the plane of that and the given one.
 Vector<double> acrossIn(const Vector<double>& direction, const Vec3D& given) {
-    const Vector<double> vector = checkedVector(owner, "across", given, "");
+    const Vector<double> vector = checkedVector(ownerOfSpray, "across", given, "");
     const Vector<double> part = vector - dot(vector, direction) * direction;
-    return checkedDirection(owner, "length of the part of 'across' that is across the direction",
+    return checkedDirection(ownerOfSpray, "length of the part of 'across' that is across the direction",
                             toEigen(part));
 }
 
 }  // namespace
 
 void Spray::setRain(const Vec3D& at, const Vec3D& along1, const Vec3D& along2, const Vec3D& towards) {
-    middle = checkedVector(owner, "middle", at, "m");
-    edge1 = checkedVector(owner, "edge1", along1, "m");
-    edge2 = checkedVector(owner, "edge2", along2, "m");
-    direction = checkedDirection(owner, "length of the direction", towards);
+    middle = checkedVector(ownerOfSpray, "middle", at, "m");
+    edge1 = checkedVector(ownerOfSpray, "edge1", along1, "m");
+    edge2 = checkedVector(ownerOfSpray, "edge2", along2, "m");
+    direction = checkedDirection(ownerOfSpray, "length of the direction", towards);
     shape = Shape::Rain;
 }
 
 void Spray::setFlatFan(const Vec3D& nozzle, const Vec3D& towards, const Vec3D& across, double fanAngle) {
-    checkValue(owner, "angle", fanAngle, "rad", positiveUpTo(std::numbers::pi));
-    middle = checkedVector(owner, "nozzle", nozzle, "m");
-    direction = checkedDirection(owner, "length of the direction", towards);
+    checkValue(ownerOfSpray, "angle", fanAngle, "rad", positiveUpTo(std::numbers::pi));
+    middle = checkedVector(ownerOfSpray, "nozzle", nozzle, "m");
+    direction = checkedDirection(ownerOfSpray, "length of the direction", towards);
     edge1 = acrossIn(direction, across);
     angle = fanAngle;
     shape = Shape::FlatFan;
 }
 
 void Spray::setCone(const Vec3D& nozzle, const Vec3D& towards, double coneAngle) {
-    checkValue(owner, "angle", coneAngle, "rad", positiveUpTo(2 * std::numbers::pi));
-    middle = checkedVector(owner, "nozzle", nozzle, "m");
-    direction = checkedDirection(owner, "length of the direction", towards);
+    checkValue(ownerOfSpray, "angle", coneAngle, "rad", positiveUpTo(2 * std::numbers::pi));
+    middle = checkedVector(ownerOfSpray, "nozzle", nozzle, "m");
+    direction = checkedDirection(ownerOfSpray, "length of the direction", towards);
     edge1 = anyAcross(direction);
     edge2 = cross(direction, edge1);
     angle = coneAngle;
@@ -57,33 +57,33 @@ void Spray::setCone(const Vec3D& nozzle, const Vec3D& towards, double coneAngle)
 }
 
 void Spray::setFlow(double value) {
-    checkValue(owner, "flow", value, "m^3/s", positive);
+    checkValue(ownerOfSpray, "flow", value, "m^3/s", positive);
     flowRate = value;
 }
 void Spray::setDropletRadius(double value) {
-    checkValue(owner, "droplet radius", value, "m", radiusRange);
+    checkValue(ownerOfSpray, "droplet radius", value, "m", radiusRange);
     radius = value;
 }
 void Spray::setVolumeSpread(double value) {
-    checkValue(owner, "volume spread", value, "", fromZeroTo(0.5));
+    checkValue(ownerOfSpray, "volume spread", value, "", fromZeroTo(0.5));
     spread = value;
 }
 void Spray::setSpeed(double value) {
-    checkValue(owner, "speed", value, "m/s", notNegative);
+    checkValue(ownerOfSpray, "speed", value, "m/s", notNegative);
     speed = value;
 }
 void Spray::setTimes(double begin, double end) {
-    checkValue(owner, "first time", begin, "s", notNegative);
-    checkValue(owner, "last time", end, "s", {begin, infinity, true, false});
+    checkValue(ownerOfSpray, "first time", begin, "s", notNegative);
+    checkValue(ownerOfSpray, "last time", end, "s", {begin, infinity, true, false});
     first = begin;
     last = end;
 }
 void Spray::setMomentum(double liquidDensity) {
-    checkValue(owner, "density of the liquid", liquidDensity, "kg/m^3", positive);
+    checkValue(ownerOfSpray, "density of the liquid", liquidDensity, "kg/m^3", positive);
     density = liquidDensity;
 }
 void Spray::setLongestFlight(double value) {
-    checkValue(owner, "longest flight", value, "s", positive);
+    checkValue(ownerOfSpray, "longest flight", value, "s", positive);
     longest = value;
 }
 

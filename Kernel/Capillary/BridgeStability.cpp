@@ -16,7 +16,7 @@ Eigen::RowVector4d angleGradient(const ArcEnd& end) {
     return gradient;
 }
 
-auto row(const ArcGradient& gradient) { return Eigen::Map<const Eigen::RowVector4d>(gradient.data()); }
+auto asRow(const ArcGradient& gradient) { return Eigen::Map<const Eigen::RowVector4d>(gradient.data()); }
 
 /// How squared radii at both ends, axial extent and volume/pi change when a contact line moves along its
 /// body.
@@ -35,8 +35,8 @@ int negativeEigenvalues(const Eigen::Matrix2d& matrix) {
 /// Derivatives of squared radii at both ends, axial extent and volume/pi by the parameters of the arc.
 Eigen::Matrix4d pinnedDerivatives(const ArcEnd& left, const ArcEnd& right, const ArcIntegrals& integrals) {
     Eigen::Matrix4d matrix;
-    matrix << row(left.squaredRadius), row(right.squaredRadius), row(integrals.axialExtentGradient),
-        row(integrals.volumeGradient);
+    matrix << asRow(left.squaredRadius), asRow(right.squaredRadius), asRow(integrals.axialExtentGradient),
+        asRow(integrals.volumeGradient);
     return matrix;
 }
 

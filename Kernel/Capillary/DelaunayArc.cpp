@@ -13,7 +13,7 @@ namespace {
 
 using std::numbers::pi;
 
-enum Parameter { Radial, Axial, Curvature, Span };
+enum Parameter { Radial, Axial, MeanCurvature, Span };
 
 /// ln |Z|, from |Z|^2 = 1 - 4 H f, exact for small H; bounded for the cylinder (Z = 0).
 double logarithmOfModulus(const DelaunayArc& arc) {
@@ -69,8 +69,8 @@ void addNode(ArcIntegrals& sum, const DelaunayArc& arc, double slope, double t, 
         sum.volumeGradient[j] += share * (byQ[j] * y + halfCosine * byU[j]);
     }
     const double stretch = weight * k.rateByCurvature;
-    sum.axialExtentGradient[Curvature] += stretch * cosine;
-    sum.volumeGradient[Curvature] += stretch * q * y;
+    sum.axialExtentGradient[MeanCurvature] += stretch * cosine;
+    sum.volumeGradient[MeanCurvature] += stretch * q * y;
 }
 
 bool isStraight(const DelaunayArc& arc) { return std::abs(arc.meanCurvature) * arc.halfSpan < 1e-7; }

@@ -23,13 +23,13 @@ namespace {
 
 using Place = std::array<double, 3>;
 
-Place partsOf(const Vector<double>& v) { return {v.x, v.y, v.z}; }
+Place componentsOf(const Vector<double>& v) { return {v.x, v.y, v.z}; }
 
-constexpr double sphereVolume(double radius) { return 4.0 / 3 * std::numbers::pi * radius * radius * radius; }
+constexpr double volumeOfBall(double radius) { return 4.0 / 3 * std::numbers::pi * radius * radius * radius; }
 
 /// Adds factor a a to xx xy xz yy yz zz.
 void addSquare(double factor, const Vector<double>& a, double* sums) {
-    const Place p = partsOf(a);
+    const Place p = componentsOf(a);
     std::size_t at = 0;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = i; j < 3; ++j) sums[at++] += factor * p[i] * p[j];
@@ -37,7 +37,7 @@ void addSquare(double factor, const Vector<double>& a, double* sums) {
 
 /// Adds the symmetric part of a b to xx xy xz yy yz zz.
 void addSymmetric(const Vector<double>& a, const Vector<double>& b, double* sums) {
-    const Place p = partsOf(a), q = partsOf(b);
+    const Place p = componentsOf(a), q = componentsOf(b);
     std::size_t at = 0;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = i; j < 3; ++j) sums[at++] += 0.5 * (p[i] * q[j] + p[j] * q[i]);
@@ -211,10 +211,10 @@ template <class Use>
 void FieldSums::forImages(const PeriodicBox& periodic, const Vector<double>& low, const Vector<double>& high,
                           Use&& use) const {
     if (!periodic.isSheared()) return forImagesAlongAxes(periodic, low, high, {0, 0, 0}, use);
-    const Place gradient = partsOf(periodic.across);
+    const Place gradient = componentsOf(periodic.across);
     const std::size_t axis = gradient[0] > 0 ? 0 : gradient[1] > 0 ? 1 : 2;
-    forImagesAlong(axis, partsOf(periodic.length)[axis], partsOf(low)[axis], partsOf(high)[axis],
-                   [&](double image) {
+    forImagesAlong(axis, componentsOf(periodic.length)[axis], componentsOf(low)[axis],
+                   componentsOf(high)[axis], [&](double image) {
                        const auto ofImage = [&](const Vector<double>& shift, const Vector<double>& velocity) {
                            use(shift, velocity + image * periodic.imageVelocity);
                        };
@@ -256,7 +256,7 @@ void FieldSums::gatherContactsOfGrains(const GrainState& state, int threads) {
 
 /// Finds within which box (m) the grid sees a body by itself alone: no image of it, and all of it.
 void FieldSums::findAlone(const PeriodicBox& periodic) {
-    const Place periods = partsOf(periodic.length);
+    const Place periods = componentsOf(periodic.length);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const bool resolved = points.isResolved(axis);
         const double reach = resolved ? weight.cutOff() : 0;
@@ -311,13 +311,13 @@ void FieldSums::addGrainAt(const Vector<double>& position, Vector<double> veloci
     const std::uint32_t group = kinds.of(grain);
     Near near{0, 0};
     if (isAlongAxis()) {
-        const double at = partsOf(position)[order[2]];
+        const double at = componentsOf(position)[order[2]];
         near = nearAlong(at, at, group);
         if (near.begin == near.end) return;
     }
     PointItem& item = items.grains.emplace_back();
-    item.at = partsOf(position), item.group = group, item.near = near;
-    const double volume = sphereVolume(grain.radius);
+    item.at = componentsOf(position), item.group = group, item.near = near;
+    const double volume = volumeOfBall(grain.radius);
     std::array<double, 8> own{};
     if (hasContacts()) {
         own = ofGrains[number].points;
@@ -354,10 +354,10 @@ void FieldSums::addGrainAt(const Vector<double>& position, Vector<double> veloci
                                                           const Vector<double>& force,
                                                           const std::array<double, 6>& adhesive,
                                                           std::uint32_t group, Items& items) const {
-    const double start = partsOf(from)[order[2]], way = share * partsOf(branch)[order[2]];
+    const double start = componentsOf(from)[order[2]], way = share * componentsOf(branch)[order[2]];
     const Near near = nearAlong(std::min(start, start + way), std::max(start, start + way), group);
     if (near.begin == near.end) return;
-    items.along.push_back({start, way, partsOf(share * force), partsOf(branch), near});
+    items.along.push_back({start, way, componentsOf(share * force), componentsOf(branch), near});
     if (!items.isAdhesive) return;
     items.adhesive.resize(items.along.size());
     for (std::size_t k = 0; k < 6; ++k) items.adhesive.back()[k] = share * adhesive[k];
@@ -385,13 +385,13 @@ void FieldSums::addLine(const GrainState& state, const Vector<double>& end, cons
         return addAxisLine(end, branch, 1, contact.force, adhesive, group, items);
     const Vector<double> low{std::min(end.x, other.x), std::min(end.y, other.y), std::min(end.z, other.z)},
         high{std::max(end.x, other.x), std::max(end.y, other.y), std::max(end.z, other.z)};
-    const Place b = partsOf(branch), f = partsOf(contact.force);
+    const Place b = componentsOf(branch), f = componentsOf(contact.force);
     std::array<double, 15> values{};
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) values[3 * i + j] = f[i] * b[j];
     std::copy(adhesive.begin(), adhesive.end(), values.begin() + 9);
     forImages(state.periodic, low, high, [&](const Vector<double>& shift, const Vector<double>&) {
-        const Place from = partsOf(end + shift);
+        const Place from = componentsOf(end + shift);
         // The part of the line within the box, in the directions that are averaged over.
         double begin = 0, stop = 1;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -413,7 +413,7 @@ void FieldSums::addLine(const GrainState& state, const Vector<double>& end, cons
         for (double& value : part) value *= stop - begin;
         const Vector<double> way = (stop - begin) * branch;
         if (points.isCylindrical()) return addRoundLine(start, way, part, group, items);
-        LineItem line{partsOf(start), partsOf(way), 0, group, part};
+        LineItem line{componentsOf(start), componentsOf(way), 0, group, part};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (!points.isResolved(axis)) line.from[axis] = line.branch[axis] = 0;
             line.length += line.branch[axis] * line.branch[axis];
@@ -456,7 +456,7 @@ void FieldSums::addRoundLine(const Vector<double>& end, const Vector<double>& br
 void FieldSums::addTraction(const GrainState& state, const Vector<double>& end, const Vector<double>& on,
                             std::uint32_t group, Items& items) const {
     forImages(state.periodic, end, end, [&](const Vector<double>& shift, const Vector<double>&) {
-        PointItem item{.at = partsOf(end + shift), .group = group, .values = {}};
+        PointItem item{.at = componentsOf(end + shift), .group = group, .values = {}};
         Vector<double> force = on;
         if (points.isCylindrical()) {
             const RoundFrame frame(end.x - points.centre().x, end.y - points.centre().y);

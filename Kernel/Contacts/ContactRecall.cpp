@@ -11,7 +11,7 @@ namespace pendular {
 
 namespace {
 
-constexpr std::size_t worthAThread = 128;  // blocks
+constexpr std::size_t blocksWorthAThread = 128;  // blocks
 
 bool isNone(std::uint32_t entry) { return entry == RememberedContacts::none; }
 
@@ -25,7 +25,7 @@ void ContactRecall::forEachBlock(const ContactStore& store, Function&& function)
             [&](int, std::size_t begin, std::size_t end) {
                 for (std::size_t b = begin; b < end; ++b) function(bucket, bucket.begin + b);
             },
-            worthAThread);
+            blocksWorthAThread);
 }
 
 std::size_t ContactRecall::into(ContactStore& store, const RememberedContacts& old) const {

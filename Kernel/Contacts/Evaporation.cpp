@@ -4,11 +4,11 @@ namespace pendular {
 
 namespace {
 
-constexpr std::string_view owner = "Evaporation";
+constexpr std::string_view ownerOfEvaporation = "Evaporation";
 constexpr double gasConstant = 8.31446261815324;  // J/(mol K), exact in the SI since 2019
 
 void require(std::string_view field, double value, std::string_view unit, const Range& range) {
-    checkValue(owner, field, value, unit, range);
+    checkValue(ownerOfEvaporation, field, value, unit, range);
 }
 
 }  // namespace

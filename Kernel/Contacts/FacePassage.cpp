@@ -16,7 +16,7 @@ namespace {
 
 /// A wall may look different to a grain before and behind a face, by this share of its radius. Walls are
 /// checked to a tenth of it, and the nearest point of a part may shift by a few times what the part does.
-constexpr double tolerance = 1e-3;
+constexpr double passageTolerance = 1e-3;
 
 }  // namespace
 
@@ -107,7 +107,7 @@ void FacePassage::goOnAtImages(const Grains& grains, Passing& passing, std::uint
 /// One of two parts that the grain sees in the same place, as above their common edge, is covered: that goes
 /// on as such. In a shallow groove round-off may cover the other one; the contact is handed over then.
 FacePassage::Seen* FacePassage::partnerOf(const Seen& before, std::vector<Seen>& now, double radius) {
-    const double most = tolerance * radius;  // m
+    const double most = passageTolerance * radius;  // m
     const auto apart = [&](const Seen& each) {
         if (each.isTaken || !(each.distance < infinity)) return infinity;
         const double between = norm(each.foot - before.foot);
@@ -120,7 +120,7 @@ FacePassage::Seen* FacePassage::partnerOf(const Seen& before, std::vector<Seen>&
 bool FacePassage::findPartners(const Grains& grains, Passing& passing, std::uint32_t wall, double reach) {
     std::vector<Seen> now = allSeenAt(grains, passing.place, wall, reach);
     meetsWalls |= !now.empty();
-    const double radius = grains.translation[passing.place].radius, touch = (1 - tolerance) * radius,
+    const double radius = grains.translation[passing.place].radius, touch = (1 - passageTolerance) * radius,
                  range = rangeAt(grains, passing.place, wall);
     // Beside a point that the grain sees on the other side, too, it is one contact with that (WallPatches),
     // though the parts there are cut otherwise, or have a crack.

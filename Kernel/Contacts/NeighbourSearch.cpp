@@ -31,7 +31,7 @@ Extent extentOf(const Items& items, Position position) {
     return e;
 }
 
-constexpr std::size_t worthAThread = 2048;  // grains whose cells are found
+constexpr std::size_t cellsWorthAThread = 2048;  // grains whose cells are found
 
 /// A few cells for each item.
 double mostCells(std::size_t items) { return 4.0 * static_cast<double>(items) + 64; }
@@ -113,7 +113,7 @@ std::vector<std::uint32_t> spatialOrder(std::span<const TranslationRecord> grain
         [&](int, std::size_t begin, std::size_t end) {
             for (std::size_t k = begin; k < end; ++k) cells[k] = cellOf(grains[k].position);
         },
-        worthAThread);
+        cellsWorthAThread);
     std::vector<std::uint32_t> begins;
     return sortByCell(cells, std::size_t{64} * tiles[0] * tiles[1] * tiles[2], begins);
 }
@@ -137,7 +137,7 @@ NeighbourSearch::NeighbourSearch(std::span<const TranslationRecord> grains, doub
                     levelOf[k] = static_cast<std::uint8_t>(std::log2(points[k].size / smallest));
             }
         },
-        worthAThread);
+        cellsWorthAThread);
     for (std::uint32_t k = 0; k < grains.size(); ++k) {
         if (!(grains[k].radius > 0)) continue;
         if (levelOf[k] >= levels.size()) levels.resize(levelOf[k] + 1u);
@@ -221,7 +221,7 @@ void NeighbourSearch::Level::sort(const Points& points, int threads) {
                 cell[k] = static_cast<std::uint32_t>(index(x, y, z));
             }
         },
-        worthAThread);
+        cellsWorthAThread);
     Members sorted = sortByCell(cell, index(0, 0, cells[2]), begins);
     for (std::uint32_t& k : sorted) k = members[k];
     members = std::move(sorted);

@@ -9,7 +9,7 @@ namespace pendular {
 
 namespace {
 
-constexpr std::size_t worthAThread = 256;  // grains near several parts
+constexpr std::size_t patchesWorthAThread = 256;  // grains near several parts
 /// Surfaces in one plane are at distances that differ by round-off. The wall with the lower number counts
 /// there, instead of one or the other by chance; the second one is taken to lie this share of the radius
 /// deeper.
@@ -124,7 +124,7 @@ void WallPatches::join(ContactStore& contacts, const ContactLaws& laws, const Pa
                 joinOf(k, contacts, laws.shapes(), grains, walls, points,
                        handOvers[static_cast<std::size_t>(part)]);
         },
-        worthAThread);
+        patchesWorthAThread);
     if (handsOver) handOver(contacts, laws, handOvers, wake);
 }
 

@@ -68,7 +68,7 @@ bool begins(std::string_view text, std::string_view word) {
            std::equal(word.begin(), word.end(), text.begin(), [](char w, char t) { return w == lower(t); });
 }
 
-constexpr std::string_view blanks = " \t\v\f", lineEnds = "\r\n";
+constexpr std::string_view blanksOfLine = " \t\v\f", lineEnds = "\r\n";
 
 bool isOneOf(char c, std::string_view set) { return set.find(c) != set.npos; }
 
@@ -78,7 +78,7 @@ bool beginsWithWord(std::string_view text, std::string_view word) {
 }
 
 std::string_view withoutBlanks(std::string_view text) {
-    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+    text.remove_prefix(std::min(text.find_first_not_of(blanksOfLine), text.size()));
     return text;
 }
 

@@ -132,7 +132,7 @@ constexpr std::array laws{
 
 /// The x > 0 of a growing function that gives `wanted`, by halving.
 template <class Function>
-double root(Function&& grows, double wanted) {
+double rootByHalving(Function&& grows, double wanted) {
     double high = 1;
     while (grows(high) < wanted) high *= 2;
     return turningPoint(0, high, [&](double x) { return grows(x) < wanted; }).fails;
@@ -175,7 +175,7 @@ double balancedSpeed(const DragLaw& law, double porosity, double diameter, doubl
     DragState state{porosityOfDrag(porosity), 0, diameter, fluid};
     const double weight = volume(state) * (density - fluid.density) * gravity;
     if (weight == 0) return 0;
-    return root(
+    return rootByHalving(
         [&](double speed) {
             state.slip = speed / porosity;
             return law.resistance(state) * state.slip;

@@ -23,8 +23,8 @@ namespace pendular {
 
 namespace {
 
-constexpr std::string_view owner = "insert()";
-constexpr std::uint32_t purposeOfPlaces = 0x1257110, purposeOfTurns = 0x1257120;
+constexpr std::string_view ownerOfClumps = "insert()";
+constexpr std::uint32_t purposeOfClumpPlaces = 0x1257110, purposeOfClumpTurns = 0x1257120;
 
 /// The spheres of clumps, and whether there is room for another clump beside them.
 class Room {
@@ -67,8 +67,9 @@ void refuseWithoutSpecies(const BodyMixture& mixture) {
     if (mixture.empty()) throw InputError("insert(): the mixture has no bodies; call add().");
     for (const BodyKind& kind : mixture)
         if (kind.species() < 0)
-            throw InputError(fmt::format(
-                "{}: the {} has no species; call setSpecies() with one of this scene.", owner, kind.word()));
+            throw InputError(
+                fmt::format("{}: the {} has no species; call setSpecies() with one of this scene.",
+                            ownerOfClumps, kind.word()));
 }
 
 /// How many bodies have the mass of the amount on average.
@@ -79,8 +80,8 @@ std::size_t countOf(const Amount& amount, double meanMass, double full) {
     constexpr double most = ParticleStore::largestIdentity;
     if (number < 1 || number > most)
         throw InputError(
-            fmt::format("{}: the amount is {:.3g} mean bodies of the mixture; it must be 1 to {}.", owner,
-                        whole / meanMass, most));
+            fmt::format("{}: the amount is {:.3g} mean bodies of the mixture; it must be 1 to {}.",
+                        ownerOfClumps, whole / meanMass, most));
     return static_cast<std::size_t>(number);
 }
 
@@ -170,9 +171,9 @@ std::vector<PlacedBody> placeOneByOne(const InsertionScene& scene, const std::ve
         for (std::uint32_t attempt = 0; attempt < options.tries && !isPlaced; ++attempt) {
             askForInterruption();
             const auto even = [&](std::uint32_t number) {
-                return random.uniform(first + k, purposeOfTurns + number, attempt);
+                return random.uniform(first + k, purposeOfClumpTurns + number, attempt);
             };
-            body.place = candidateOf(region, random, first + k, purposeOfPlaces, attempt, 0);
+            body.place = candidateOf(region, random, first + k, purposeOfClumpPlaces, attempt, 0);
             if (!region.contains(body.place, 0)) continue;
             body.turn = evenTurn(even(0), even(1), even(2));
             spheres = body.kind->spheres(body.radius, body.place, body.turn);
@@ -197,7 +198,8 @@ void placeDensely(const InsertionScene& scene, std::vector<PlacedBody>& bodies, 
             smallest = std::min(smallest, sphere.radius);
             largest = std::max(largest, sphere.radius);
         }
-    refuseWithoutRoom(owner, region, scene.walls, scene.periodic, smallest, largest, options.wholeGrains);
+    refuseWithoutRoom(ownerOfClumps, region, scene.walls, scene.periodic, smallest, largest,
+                      options.wholeGrains);
     const DenseBodies found = denseBodies(bodies, standIns, scene, region, options);
     if (found.scale < 1) refuseLessDense(fraction, found.scale, found.iterations);
     PeriodicBox fromRegion = scene.periodic;  // a region may go across a face
@@ -208,7 +210,7 @@ void placeDensely(const InsertionScene& scene, std::vector<PlacedBody>& bodies, 
                                  options.wholeGrains ? radius * (1 - 1e-9) : 0))
                 throw InputError(fmt::format(
                     "{}: a {} of the size {:.6g} m was pushed out of the region; take a smaller amount.",
-                    owner, body.kind->word(), 2 * body.radius));
+                    ownerOfClumps, body.kind->word(), 2 * body.radius));
 }
 
 /// Bodies find their places; those that find no room are left out. Grains of one kind, which need not turn,
@@ -243,12 +245,13 @@ void placeBodies(const InsertionScene& scene, std::vector<PlacedBody>& bodies, c
 Inserted insertBodies(const InsertionScene& scene, const BodyMixture& mixture, const Region& given,
                       const Amount& amount, const InsertOptions& options) {
     refuseWithoutSpecies(mixture);
-    requireShapes(mixture, scene.shapes, owner);
+    requireShapes(mixture, scene.shapes, ownerOfClumps);
     const auto region = given.in(scene.periodic);
     const bool areSpheres = mixture.size() == 1 && mixture[0].grain();
     if (areSpheres)
-        refuseWithoutRoom(owner, *region, scene.walls, scene.periodic, 0.5 * mixture[0].sizes.smallest(),
-                          0.5 * mixture[0].sizes.largest(), options.wholeGrains);
+        refuseWithoutRoom(ownerOfClumps, *region, scene.walls, scene.periodic,
+                          0.5 * mixture[0].sizes.smallest(), 0.5 * mixture[0].sizes.largest(),
+                          options.wholeGrains);
     const double full = fullMassOf(scene, mixture, region->volume());
     refuseMoreThanTheRegion(mixture, amount, region->volume(), full);
     std::vector<PlacedBody> bodies = bodiesOf(scene, mixture, amount, region->volume(), full, options);

@@ -19,15 +19,15 @@ namespace {
 
 using Point = Vector<double>;
 
-constexpr std::uint32_t purposeOfPlaces = 0x1257200, purposeOfTurns = 0x1257210;
-constexpr std::size_t worthAThread = 1024;
-constexpr int mostIterations = 2000, patience = 200;
+constexpr std::uint32_t purposeOfBodyPlaces = 0x1257200, purposeOfBodyTurns = 0x1257210;
+constexpr std::size_t bodiesWorthAThread = 1024;
+constexpr int mostBodyIterations = 2000, bodyPatience = 200;
 
 /// Bodies that push and turn each other. Spheres behind those of bodies are grains of the scene, which stay.
-class Relaxation {
+class BodyRelaxation {
 public:
-    Relaxation(std::vector<PlacedBody>& wanted, const StandInSpheres& spheresOf, const InsertionScene& of,
-               const Region& within, const InsertOptions& options)
+    BodyRelaxation(std::vector<PlacedBody>& wanted, const StandInSpheres& spheresOf, const InsertionScene& of,
+                   const Region& within, const InsertOptions& options)
         : placed(wanted), standIns(spheresOf), scene(of), region(within), hasMargin(options.wholeGrains) {
         placeAll(options.seed);
         double volume = 0;
@@ -45,16 +45,16 @@ public:
 
     DenseBodies run() {
         DenseBodies made;
-        while (made.iterations < mostIterations) {
+        while (made.iterations < mostBodyIterations) {
             scale = std::min(1.0, firstScale + (1 - firstScale) * made.iterations / stepsOfGrowth);
             ++made.iterations;
             if (relax() && scale == 1) return finish(made);
             // Borders and grains may leave less room than the region's volume says.
-            if (made.iterations % patience == 0) excess = 1 + 0.5 * (excess - 1);
+            if (made.iterations % bodyPatience == 0) excess = 1 + 0.5 * (excess - 1);
         }
         while (scale > 0.1) {
             scale *= 0.98;
-            for (int k = 0; k < patience / 2; ++k, ++made.iterations)
+            for (int k = 0; k < bodyPatience / 2; ++k, ++made.iterations)
                 if (relax()) return finish(made);
         }
         return finish(made);
@@ -83,7 +83,7 @@ private:
     };
 
     void placeAll(std::uint64_t seed) {
-        const SpreadPoints points(placed.size(), seed, purposeOfPlaces);
+        const SpreadPoints points(placed.size(), seed, purposeOfBodyPlaces);
         const CountedRandom random(seed);
         std::uint64_t number = 0;
         for (PlacedBody& body : placed) {
@@ -92,9 +92,9 @@ private:
                 body.place = region.candidate(points[number], hasMargin ? body.radius : 0);
                 if (region.contains(body.place, 0)) break;
             }
-            body.turn =
-                evenTurn(random.uniform(number, purposeOfTurns), random.uniform(number, purposeOfTurns + 1),
-                         random.uniform(number, purposeOfTurns + 2));
+            body.turn = evenTurn(random.uniform(number, purposeOfBodyTurns),
+                                 random.uniform(number, purposeOfBodyTurns + 1),
+                                 random.uniform(number, purposeOfBodyTurns + 2));
             ++number;
         }
     }
@@ -162,7 +162,7 @@ private:
             [&](int part, std::size_t from, std::size_t to) {
                 for (std::size_t k = from; k < to; ++k) function(part, bodies[k]);
             },
-            worthAThread);
+            bodiesWorthAThread);
     }
 
     [[nodiscard]] double scaleOf(const Sphere& sphere) const { return sphere.body == none ? 1 : scale; }
@@ -183,7 +183,7 @@ private:
             records.push_back({scene.periodic.wrap(sphere.place), sizeOf(sphere), {0, 0, 0}, 1});
         border.assign(arms.size(), 0);
         mayOverlap.list(
-            records, skin, scene.periodic, scene.threads, worthAThread,
+            records, skin, scene.periodic, scene.threads, bodiesWorthAThread,
             [&](std::uint32_t a, std::uint32_t b) { return spheres[a].body != spheres[b].body; },
             [&](std::size_t k) {
                 if (k < arms.size()) border[k] = isNearBorder(spheres[k]);
@@ -199,7 +199,7 @@ private:
                 for (std::size_t k = from; k < to; ++k)
                     own = std::max(own, squaredNorm(spheres[k].place - listed[k]));
             },
-            worthAThread);
+            bodiesWorthAThread);
         return std::sqrt(std::ranges::max(farthest));
     }
 
@@ -331,7 +331,7 @@ std::vector<Ball> StandInSpheres::of(const PlacedBody& body) const {
 DenseBodies denseBodies(std::vector<PlacedBody>& bodies, const StandInSpheres& standIns,
                         const InsertionScene& scene, const Region& region, const InsertOptions& options) {
     if (bodies.empty()) return {};
-    return Relaxation(bodies, standIns, scene, region, options).run();
+    return BodyRelaxation(bodies, standIns, scene, region, options).run();
 }
 
 }  // namespace pendular

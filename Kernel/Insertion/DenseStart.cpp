@@ -19,8 +19,8 @@ namespace {
 
 using Point = Vector<double>;
 
-constexpr std::uint32_t purposeOfPlaces = 0x1257000;
-constexpr std::size_t worthAThread = 4096;
+constexpr std::uint32_t purposeOfStartPlaces = 0x1257000;
+constexpr std::size_t grainsWorthAThread = 4096;
 constexpr int mostIterations = 3000, patience = 300;
 
 /// Spheres that push each other apart. Those behind `count` are grains of the scene, which stay.
@@ -77,7 +77,7 @@ private:
     };
 
     void placeAll(std::span<const double> radii, std::uint64_t seed) {
-        const SpreadPoints points(radii.size(), seed, purposeOfPlaces);
+        const SpreadPoints points(radii.size(), seed, purposeOfStartPlaces);
         std::uint64_t number = 0;
         for (const double radius : radii) {
             askForInterruption();
@@ -120,7 +120,7 @@ private:
         for (const Sphere& sphere : spheres) listed.push_back(sphere.position);
         border.resize(spheres.size());
         mayOverlap.list(
-            asRecords(), skin, periodic, threads, worthAThread,
+            asRecords(), skin, periodic, threads, grainsWorthAThread,
             [](std::uint32_t, std::uint32_t) { return true; },
             [&](std::size_t k) { border[k] = spheres[k].moves() && isNearBorder(spheres[k]); });
     }
@@ -154,7 +154,7 @@ private:
                 for (std::size_t k = from; k < to; ++k)
                     if (spheres[k].moves()) own = std::min(own, pushOne(k));
             },
-            worthAThread);
+            grainsWorthAThread);
         return growth * std::ranges::min(least);
     }
 
@@ -232,7 +232,7 @@ private:
                     own = std::max(own, squaredNorm(spheres[k].position - listed[k]));
                 }
             },
-            worthAThread);
+            grainsWorthAThread);
         moved = std::sqrt(std::ranges::max(farthest));
     }
 

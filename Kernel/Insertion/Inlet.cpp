@@ -22,12 +22,12 @@ namespace pendular {
 
 namespace {
 
-constexpr std::string_view owner = "Inlet";
+constexpr std::string_view ownerOfInlet = "Inlet";
 /// The purpose of the random numbers of places; three for each inlet.
-constexpr std::uint32_t purposeOfPlaces = 0x1258000;
+constexpr std::uint32_t purposeOfInletPlaces = 0x1258000;
 
 /// The purpose of the random numbers of turns; three for each inlet.
-constexpr std::uint32_t purposeOfTurns = 0x1259000;
+constexpr std::uint32_t purposeOfInletTurns = 0x1259000;
 
 /// kg
 double massOf(const ParticleHandler& particles, const BodyKind& kind, double radius) {
@@ -94,32 +94,33 @@ BodiesAlike alikeOf(const BodyKind& kind, double density, const ContactsAround& 
 }  // namespace
 
 void Inlet::setMassFlow(double rate) {
-    checkValue(owner, "mass flow", rate, "kg/s", positive);
+    checkValue(ownerOfInlet, "mass flow", rate, "kg/s", positive);
     massFlow = rate;
     numberFlow = unset;
 }
 void Inlet::setNumberFlow(double rate) {
-    checkValue(owner, "number flow", rate, "1/s", positive);
+    checkValue(ownerOfInlet, "number flow", rate, "1/s", positive);
     numberFlow = rate;
     massFlow = unset;
 }
 void Inlet::setTimes(double begin, double end) {
-    checkValue(owner, "first time", begin, "s", notNegative);
-    checkValue(owner, "last time", end, "s", {begin, infinity, true, false});
+    checkValue(ownerOfInlet, "first time", begin, "s", notNegative);
+    checkValue(ownerOfInlet, "last time", end, "s", {begin, infinity, true, false});
     first = begin;
     last = end;
 }
 void Inlet::setTries(std::uint32_t number) {
-    checkValue(owner, "number of tries", number, "", {1, 1e9});
+    checkValue(ownerOfInlet, "number of tries", number, "", {1, 1e9});
     tries = number;
 }
 
 void Inlet::setFollowsWall(std::size_t number) { wall = number; }
 void Inlet::setFollowsFill(const Vec3D& direction, double step, double most) {
-    const Vector<double> unit = checkedDirection(owner, "length of the direction of the fill", direction);
-    checkValue(owner, "step after the fill", step, "m", positive);
+    const Vector<double> unit =
+        checkedDirection(ownerOfInlet, "length of the direction of the fill", direction);
+    checkValue(ownerOfInlet, "step after the fill", step, "m", positive);
     // All steps may be tried in one time step.
-    checkValue(owner, "way after the fill", most, "m", {step, 1e4 * step});
+    checkValue(ownerOfInlet, "way after the fill", most, "m", {step, 1e4 * step});
     rise = step * unit;
     mostRises = static_cast<std::uint32_t>(most / step * (1 + 1e-12));
 }
@@ -435,11 +436,11 @@ std::optional<InletHandler::Room> InletHandler::findRoom(const InsertionScene& s
     const Vector<double> shift = shiftOf(scene, kept, number);
     const auto roomOf = [&](std::uint32_t attempt) -> std::optional<Room> {
         const Vector<double> place = candidateOf(*kept.region, random, kept.count.number,
-                                                 purposeOfPlaces + 3 * number, attempt, margin);
+                                                 purposeOfInletPlaces + 3 * number, attempt, margin);
         if (!kept.region->contains(place, margin)) return std::nullopt;
         const Vector<double> way = kept.inFlow.placeNow(place, scene.periodic) - place + shift;
         const auto even = [&](std::uint32_t which) {
-            return random.uniform(kept.count.number, purposeOfTurns + 3 * number + which, attempt);
+            return random.uniform(kept.count.number, purposeOfInletTurns + 3 * number + which, attempt);
         };
         const Eigen::Quaterniond turn =
             !kind.grain() && inlet.randomTurns ? evenTurn(even(0), even(1), even(2)) : kind.orientation();

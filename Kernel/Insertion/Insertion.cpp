@@ -20,14 +20,14 @@ namespace pendular {
 
 namespace {
 
-constexpr std::string_view owner = "insert()";
+constexpr std::string_view ownerOfGrains = "insert()";
 constexpr std::uint32_t purposeOfPlaces = 0x1257010, purposeOfProbes = 0x1257020;
 constexpr double mostGrains = ParticleStore::largestIdentity;
 
 InputError tooManyError(double number) {
     const auto [wanted, most] = apartTexts(number, mostGrains, 3);
     return InputError(
-        fmt::format("{}: the amount is some {} grains; it must be at most {}.", owner, wanted, most));
+        fmt::format("{}: the amount is some {} grains; it must be at most {}.", ownerOfGrains, wanted, most));
 }
 
 std::size_t exactCount(const Amount& amount, double mean, double whole) {
@@ -36,22 +36,22 @@ std::size_t exactCount(const Amount& amount, double mean, double whole) {
     if (number > mostGrains) throw tooManyError(number);
     if (number < 1)
         throw InputError(fmt::format("{}: the amount is {} of the mean grain; it must be one grain at least.",
-                                     owner, apartTexts(whole / mean, 1, 3)[0]));
+                                     ownerOfGrains, apartTexts(whole / mean, 1, 3)[0]));
     return static_cast<std::size_t>(number);
 }
 
 }  // namespace
 
 Amount Amount::grains(std::size_t number) {
-    checkValue(owner, "number of grains", static_cast<double>(number), "", {1, mostGrains});
+    checkValue(ownerOfGrains, "number of grains", static_cast<double>(number), "", {1, mostGrains});
     return {Kind::Grains, static_cast<double>(number)};
 }
 Amount Amount::mass(double mass) {
-    checkValue(owner, "mass", mass, "kg", positive);
+    checkValue(ownerOfGrains, "mass", mass, "kg", positive);
     return {Kind::Mass, mass};
 }
 Amount Amount::solidFraction(double fraction) {
-    checkValue(owner, "solid fraction", fraction, "", {0, 1, false, false});
+    checkValue(ownerOfGrains, "solid fraction", fraction, "", {0, 1, false, false});
     return {Kind::SolidFraction, fraction};
 }
 double Amount::massOf(double mean, double full) const {
@@ -176,8 +176,8 @@ std::vector<Vector<double>> placeDensely(const InsertionScene& scene, std::span<
         if (!region.contains(fromRegion.wrap(found.centres[k]),
                              options.wholeGrains ? radii[k] * (1 - 1e-9) : 0))
             throw InputError(fmt::format(
-                "{}: a grain of radius {:.6g} m was pushed out of the region; take a smaller amount.", owner,
-                radii[k]));
+                "{}: a grain of radius {:.6g} m was pushed out of the region; take a smaller amount.",
+                ownerOfGrains, radii[k]));
     return std::move(found.centres);
 }
 

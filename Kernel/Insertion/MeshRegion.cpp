@@ -16,7 +16,7 @@ namespace {
 
 using Point = Vector<double>;
 
-bool isLess(const Point& a, const Point& b) {
+bool isBefore(const Point& a, const Point& b) {
     return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
 }
 
@@ -24,7 +24,7 @@ bool isLess(const Point& a, const Point& b) {
 /// for both its triangles, so that a point is on one side of it for both.
 bool crossesEdge(Point a, Point b, double x, double y) {
     if ((a.y > y) == (b.y > y)) return false;
-    if (isLess(b, a)) std::swap(a, b);
+    if (isBefore(b, a)) std::swap(a, b);
     return x > a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
 }
 

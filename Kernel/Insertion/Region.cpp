@@ -14,8 +14,6 @@ namespace pendular {
 
 namespace {
 
-using Axis = double Vector<double>::*;
-constexpr std::array<Axis, 3> axes{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
 constexpr std::array<char, 3> axisNames{'x', 'y', 'z'};
 
 /// Even in a range that is shorter by the margin on both sides.
@@ -32,7 +30,7 @@ Vector<double> Region::candidate(const std::array<double, 3>& even, double margi
     const Box box = bounds();
     Vector<double> made{};
     for (std::size_t k = 0; k < 3; ++k)
-        made.*axes[k] = between(box.lowest.*axes[k], box.highest.*axes[k], even[k], margin);
+        made.*vectorAxes[k] = between(box.lowest.*vectorAxes[k], box.highest.*vectorAxes[k], even[k], margin);
     return made;
 }
 
@@ -42,8 +40,8 @@ std::array<bool, 3> Region::goesRound(std::string_view owner, const Box& bounds,
     constexpr double roundOff = 1e-12;
     std::array<bool, 3> round{};
     for (std::size_t k = 0; k < 3; ++k) {
-        const double length = bounds.highest.*axes[k] - bounds.lowest.*axes[k],
-                     period = periodic.length.*axes[k];
+        const double length = bounds.highest.*vectorAxes[k] - bounds.lowest.*vectorAxes[k],
+                     period = periodic.length.*vectorAxes[k];
         if (period == 0) continue;
         if (length > period * (1 + roundOff))
             throw InputError(fmt::format(
@@ -79,14 +77,15 @@ BoxRegion::BoxRegion(const Vec3D& lowest, const Vec3D& highest) {
     box.highest = checkedVector(boxName, "highest", highest, "m");
     for (std::size_t k = 0; k < 3; ++k)
         checkValue(boxName, fmt::format("length along {}", axisNames[k]),
-                   box.highest.*axes[k] - box.lowest.*axes[k], "m", positive);
+                   box.highest.*vectorAxes[k] - box.lowest.*vectorAxes[k], "m", positive);
 }
 
 bool BoxRegion::contains(const Vector<double>& point, double margin) const {
     for (std::size_t k = 0; k < 3; ++k) {
         if (open[k]) continue;
-        const double x = point.*axes[k], needed = withRoundOff(margin);
-        if (!(x - box.lowest.*axes[k] >= needed && box.highest.*axes[k] - x >= needed)) return false;
+        const double x = point.*vectorAxes[k], needed = withRoundOff(margin);
+        if (!(x - box.lowest.*vectorAxes[k] >= needed && box.highest.*vectorAxes[k] - x >= needed))
+            return false;
     }
     return true;
 }
@@ -105,7 +104,7 @@ double BoxRegion::areaAcross(const Vector<double>& direction) const {
 double BoxRegion::largestSphere() const {
     double least = infinity;
     for (std::size_t k = 0; k < 3; ++k)
-        if (!open[k]) least = std::min(least, 0.5 * (box.highest.*axes[k] - box.lowest.*axes[k]));
+        if (!open[k]) least = std::min(least, 0.5 * (box.highest.*vectorAxes[k] - box.lowest.*vectorAxes[k]));
     return least;
 }
 
@@ -113,8 +112,8 @@ Vector<double> BoxRegion::inwards(const Vector<double>& centre, double radius) c
     Vector<double> sum{0, 0, 0};
     for (std::size_t k = 0; k < 3; ++k) {
         if (open[k]) continue;
-        sum.*axes[k] += std::max(radius - (centre.*axes[k] - box.lowest.*axes[k]), 0.0) -
-                        std::max(radius - (box.highest.*axes[k] - centre.*axes[k]), 0.0);
+        sum.*vectorAxes[k] += std::max(radius - (centre.*vectorAxes[k] - box.lowest.*vectorAxes[k]), 0.0) -
+                              std::max(radius - (box.highest.*vectorAxes[k] - centre.*vectorAxes[k]), 0.0);
     }
     return sum;
 }
@@ -122,7 +121,8 @@ Vector<double> BoxRegion::inwards(const Vector<double>& centre, double radius) c
 Vector<double> BoxRegion::candidate(const std::array<double, 3>& even, double margin) const {
     Vector<double> made{};
     for (std::size_t k = 0; k < 3; ++k)
-        made.*axes[k] = between(box.lowest.*axes[k], box.highest.*axes[k], even[k], open[k] ? 0 : margin);
+        made.*vectorAxes[k] =
+            between(box.lowest.*vectorAxes[k], box.highest.*vectorAxes[k], even[k], open[k] ? 0 : margin);
     return made;
 }
 
@@ -160,11 +160,11 @@ double CylinderRegion::volume() const { return std::numbers::pi * radius * radiu
 Box CylinderRegion::bounds() const {
     Box box;
     for (std::size_t k = 0; k < 3; ++k) {
-        const double low = begin.*axes[k], high = low + length * axis.*axes[k];
+        const double low = begin.*vectorAxes[k], high = low + length * axis.*vectorAxes[k];
         // The rim of an end reaches so far along an axis.
-        const double rim = radius * std::sqrt(std::max(0.0, 1 - axis.*axes[k] * axis.*axes[k]));
-        box.lowest.*axes[k] = std::min(low, high) - rim;
-        box.highest.*axes[k] = std::max(low, high) + rim;
+        const double rim = radius * std::sqrt(std::max(0.0, 1 - axis.*vectorAxes[k] * axis.*vectorAxes[k]));
+        box.lowest.*vectorAxes[k] = std::min(low, high) - rim;
+        box.highest.*vectorAxes[k] = std::max(low, high) + rim;
     }
     return box;
 }
@@ -199,7 +199,7 @@ Vector<double> CylinderRegion::candidate(const std::array<double, 3>& even, doub
 std::shared_ptr<const Region> CylinderRegion::in(const PeriodicBox& periodic) const {
     auto made = std::make_shared<CylinderRegion>(*this);
     const std::array<bool, 3> round = goesRound(cylinderName, bounds(), periodic);
-    for (std::size_t k = 0; k < 3; ++k) made->open |= round[k] && std::abs(axis.*axes[k]) == 1;
+    for (std::size_t k = 0; k < 3; ++k) made->open |= round[k] && std::abs(axis.*vectorAxes[k]) == 1;
     return made;
 }
 
@@ -307,7 +307,7 @@ std::shared_ptr<const Region> BetweenWalls::in(const PeriodicBox& scene) const {
     made->box = box->in(scene);
     made->periodic = scene;
     const Box bounds = box->bounds();
-    for (const Axis axis : axes) {
+    for (const auto axis : vectorAxes) {
         const double low = scene.lowest.*axis, length = scene.length.*axis;
         if (length == 0 || (bounds.lowest.*axis >= low && bounds.highest.*axis <= low + length)) continue;
         made->size = made->measured();

@@ -8,12 +8,6 @@
 
 namespace pendular {
 
-namespace {
-
-constexpr std::array axes{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
-
-}  // namespace
-
 RegionInFlow::RegionInFlow(std::shared_ptr<const Region> of, const PeriodicBox& atSetUp)
     : region(std::move(of)), then(atSetUp), open(region->openAxes()) {}
 
@@ -22,9 +16,10 @@ Vector<double> RegionInFlow::placeNow(const Vector<double>& place, const Periodi
     const Vector<double> middle = now.middle(), middleThen = then.middle();
     Vector<double> moved = place;
     for (std::size_t k = 0; k < 3; ++k)
-        if (open[k] && now.length.*axes[k] != then.length.*axes[k])
-            moved.*axes[k] = middle.*axes[k] + (place.*axes[k] - middleThen.*axes[k]) *
-                                                   (now.length.*axes[k] / then.length.*axes[k]);
+        if (open[k] && now.length.*vectorAxes[k] != then.length.*vectorAxes[k])
+            moved.*vectorAxes[k] =
+                middle.*vectorAxes[k] + (place.*vectorAxes[k] - middleThen.*vectorAxes[k]) *
+                                            (now.length.*vectorAxes[k] / then.length.*vectorAxes[k]);
     return moved;
 }
 
@@ -38,7 +33,8 @@ void RegionInFlow::requireRoom(const std::string& owner, const PeriodicBox& now)
     if (!now.imagesMove) return;
     const Box bounds = region->bounds();
     for (std::size_t k = 0; k < 3; ++k) {
-        const double length = bounds.highest.*axes[k] - bounds.lowest.*axes[k], period = now.length.*axes[k];
+        const double length = bounds.highest.*vectorAxes[k] - bounds.lowest.*vectorAxes[k],
+                     period = now.length.*vectorAxes[k];
         if (open[k] || period == 0 || length <= period * (1 + 1e-12)) continue;
         throw RunError(fmt::format(
             "{}: the scene has been strained to a period of {:.6g} m along {}, and its region, of {:.6g} m, "

@@ -37,9 +37,9 @@ void forEachImageInBox(const PeriodicBox& periodic, const Vector<double>& centre
     const Vector<double> inside = periodic.wrap(centre);
     std::array<std::array<double, 3>, 3> shifts{};  // m, by axis
     std::array<std::size_t, 3> counts{1, 1, 1};
-    constexpr std::array axes{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
     for (std::size_t k = 0; k < 3; ++k) {
-        const double length = periodic.length.*axes[k], above = inside.*axes[k] - periodic.lowest.*axes[k];
+        const double length = periodic.length.*vectorAxes[k],
+                     above = inside.*vectorAxes[k] - periodic.lowest.*vectorAxes[k];
         if (length == 0) continue;
         if (above < radius) shifts[k][counts[k]++] = length;
         if (length - above < radius) shifts[k][counts[k]++] = -length;

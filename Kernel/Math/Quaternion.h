@@ -29,6 +29,9 @@ struct QuaternionOf {
 };
 using Quaternion = QuaternionOf<double>;
 
+/// The turn back.
+inline Quaternion inverse(const Quaternion& q) { return {q.real, -q.imaginary}; }
+
 /// The axes of a frame in space, as a quaternion turns them: a turn of many vectors takes 9 products each.
 template <Number T>
 struct Axes {

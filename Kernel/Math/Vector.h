@@ -2,6 +2,8 @@
 
 /// A vector in space for both number types (double and Pack).
 
+#include <array>
+
 #include "Kernel/Math/Pack.h"
 
 namespace pendular {
@@ -48,5 +50,9 @@ struct Vector {
         return a.x == b.x && a.y == b.y && a.z == b.z;
     }
 };
+
+/// The components of a vector by the number of their axis: vector.*vectorAxes[0] is x.
+inline constexpr std::array<double Vector<double>::*, 3> vectorAxes{&Vector<double>::x, &Vector<double>::y,
+                                                                    &Vector<double>::z};
 
 }  // namespace pendular

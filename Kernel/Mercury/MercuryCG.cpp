@@ -16,12 +16,12 @@
 namespace pendular {
 namespace {
 
-using Contact = GrainState::Contact;
+using StateContact = GrainState::Contact;
 
 /// m, from the centre of the first grain of a contact to the middle of its overlap.
-Vector<double> toPoint(const GrainState& state, std::size_t number) {
+Vector<double> fromGrainToPoint(const GrainState& state, std::size_t number) {
     if (!state.shapes.empty()) return state.shapes[number].toPoint;
-    const Contact& contact = state.contacts[number];
+    const StateContact& contact = state.contacts[number];
     const double length = norm(contact.shift), radius = state.grains[contact.first].radius,
                  gap = length - radius - state.grains[contact.second].radius;
     return ((radius + 0.5 * gap) / length) * contact.shift;
@@ -29,7 +29,7 @@ Vector<double> toPoint(const GrainState& state, std::size_t number) {
 
 /// Turns a contact round: it is then as its second grain has it.
 void reverse(GrainState& state, std::size_t number) {
-    Contact& contact = state.contacts[number];
+    StateContact& contact = state.contacts[number];
     if (!state.shapes.empty()) {
         auto& [point, normal] = state.shapes[number];
         point -= contact.shift;
@@ -43,16 +43,16 @@ void reverse(GrainState& state, std::size_t number) {
 /// Takes grains out of a state. A contact with one of them is then one with a wall at the contact point.
 /// @param isOut of each grain
 void makeBoundary(GrainState& state, const std::vector<bool>& isOut) {
-    std::vector<Contact> contacts;
+    std::vector<StateContact> contacts;
     std::vector<GrainState::Shape> shapes;
     for (std::size_t k = 0; k < state.contacts.size(); ++k) {
-        Contact& contact = state.contacts[k];
-        const bool isAtWall = contact.second == Contact::wall;
+        StateContact& contact = state.contacts[k];
+        const bool isAtWall = contact.second == StateContact::wall;
         if (isOut[contact.first] && (isAtWall || isOut[contact.second])) continue;
         if (!isAtWall && isOut[contact.first]) reverse(state, k);
         if (!isAtWall && isOut[contact.second]) {
-            contact.shift = toPoint(state, k);
-            contact.second = Contact::wall;
+            contact.shift = fromGrainToPoint(state, k);
+            contact.second = StateContact::wall;
         }
         contacts.push_back(contact);
         if (!state.shapes.empty()) shapes.push_back(state.shapes[k]);
@@ -63,9 +63,9 @@ void makeBoundary(GrainState& state, const std::vector<bool>& isOut) {
         number[k] = static_cast<std::uint32_t>(grains.size());
         if (!isOut[k]) grains.push_back(state.grains[k]);
     }
-    for (Contact& contact : contacts) {
+    for (StateContact& contact : contacts) {
         contact.first = number[contact.first];
-        if (contact.second != Contact::wall) contact.second = number[contact.second];
+        if (contact.second != StateContact::wall) contact.second = number[contact.second];
     }
     state.grains = std::move(grains);
     state.contacts = std::move(contacts);

@@ -90,9 +90,10 @@ bool isOfFiles(std::string_view word) {
     return std::ranges::count(files, word) > 0;
 }
 
-class Reader {
+class MercuryRestartReader {
 public:
-    explicit Reader(const std::filesystem::path& path) : file(loadTextFile("restart file", path)) {
+    explicit MercuryRestartReader(const std::filesystem::path& path)
+        : file(loadTextFile("restart file", path)) {
         state.file = path;
     }
 
@@ -174,7 +175,9 @@ std::filesystem::path withRestartEnding(const std::filesystem::path& file) {
     return isShort ? longer : file;
 }
 
-MercuryRestart readMercuryRestart(const std::filesystem::path& path) { return Reader(path).read(); }
+MercuryRestart readMercuryRestart(const std::filesystem::path& path) {
+    return MercuryRestartReader(path).read();
+}
 
 void MercuryRestart::refuse(std::size_t line, std::string_view reason) const {
     throw InputError(fmt::format("The restart file {}, line {}: {}.", file.string(), line, reason));

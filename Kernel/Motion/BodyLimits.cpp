@@ -15,7 +15,7 @@ namespace pendular {
 namespace {
 
 /// One side of a contact.
-struct Side {
+struct TouchingBody {
     std::size_t species;
     double radius;         // m; infinite of a wall; of a block that of its edges
     double flat = 0;       // m, of a block: the largest that counts on its faces
@@ -51,8 +51,9 @@ double sidesOfPlanes(const WallHandler& walls) {
 }
 
 /// What bodies may touch: the extremes of each species.
-std::vector<Side> partners(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls) {
-    std::vector<Side> found;
+std::vector<TouchingBody> partners(const ContactLaws& species, const GrainSizes& grains,
+                                   const WallHandler& walls) {
+    std::vector<TouchingBody> found;
     const GrainSizes others = grains.withoutBodies();
     for (std::size_t s = 0; s < others.all.size(); ++s) {
         const SizeRange& sizes = others.all[s];
@@ -63,7 +64,7 @@ std::vector<Side> partners(const ContactLaws& species, const GrainSizes& grains,
     }
     for (std::size_t s = 0; s < grains.all.size() && countOf(grains.bodies) > 1; ++s)
         for (const bool blocks : {false, true}) {
-            Side smallest{.species = s, .radius = infinity, .mass = 0},
+            TouchingBody smallest{.species = s, .radius = infinity, .mass = 0},
                 largest{.species = s, .radius = 0, .mass = 0};
             for (const BodiesAlike& body : grains.bodies) {
                 if (body.species != s || body.isBlock != blocks) continue;
@@ -94,10 +95,10 @@ std::vector<Side> partners(const ContactLaws& species, const GrainSizes& grains,
 
 /// As Hertz's law takes a touch: of a block the face is flat, and a sphere on it has at most the block's
 /// largest radius.
-Bodies touchOf(const Side& one, const Side& two) {
+Bodies touchOf(const TouchingBody& one, const TouchingBody& two) {
     if (!one.isBlock() && !two.isBlock()) return Bodies{one.radius, two.radius};
     if (one.isBlock() && two.isBlock()) return Bodies{std::max(one.radius, two.radius), infinity};
-    const Side &block = one.isBlock() ? one : two, &other = one.isBlock() ? two : one;
+    const TouchingBody &block = one.isBlock() ? one : two, &other = one.isBlock() ? two : one;
     if (!(other.radius < infinity)) return Bodies{block.radius, infinity};
     return Bodies{std::max(block.radius, std::min(other.radius, block.flat)), infinity};
 }
@@ -105,7 +106,7 @@ Bodies touchOf(const Side& one, const Side& two) {
 /// More grains than are supposed find room on a body if they are smaller than its spheres: on a sphere of
 /// radius R those of radius r, ((R + r) / 2 r)^2 times as many, and of the spheres of bodies the mean over
 /// their surface. On the face of a block eight are supposed, and there is room for a hexagonal layer.
-double roomFor(const Side& partner, const Side& own, double face) {
+double roomFor(const TouchingBody& partner, const TouchingBody& own, double face) {
     if (partner.isBlock() || !(partner.radius < infinity)) return 1;
     const double radius = partner.radius;
     if (own.isBlock()) return std::max(1.0, face / (2 * std::numbers::sqrt3 * radius * radius) / 8);
@@ -121,9 +122,9 @@ double touchedBy(double radius, double ofBody, double touched) {
 }
 
 /// Contacts of one side, as if each of the other were at rest, over the mass.
-class Loads {
+class ContactLoads {
 public:
-    Loads(const ContactLaws& of, const GrainSizes& grains, std::size_t contacts)
+    ContactLoads(const ContactLaws& of, const GrainSizes& grains, std::size_t contacts)
         : species(of), heldDamping(grains.heldDamping), met(contacts) {}
 
     struct Contact {
@@ -131,7 +132,7 @@ public:
         Bodies bodies;
         double effectiveMass;  // kg
     };
-    [[nodiscard]] Contact contactOf(const Side& own, const Side& partner) const {
+    [[nodiscard]] Contact contactOf(const TouchingBody& own, const TouchingBody& partner) const {
         const double mass = 1 / (1 / own.mass + 1 / partner.mass);
         const Bodies bodies = touchOf(own, partner);
         // A block's radii are true ones, which the laws of shapes would take as those of spheres around.
@@ -202,19 +203,20 @@ BodyLoad sum(const BodyLoad& a, const BodyLoad& b, double share) {
 }
 
 /// The sides of a body: with its smallest and its largest grains.
-std::array<Side, 2> sidesOf(const BodiesAlike& body, const BodiesAlike::Size& size) {
-    Side smallest{.species = body.species, .radius = size.smallest, .mass = size.mass}, largest = smallest;
+std::array<TouchingBody, 2> sidesOf(const BodiesAlike& body, const BodiesAlike::Size& size) {
+    TouchingBody smallest{.species = body.species, .radius = size.smallest, .mass = size.mass},
+        largest = smallest;
     if (body.isBlock) smallest.flat = largest.flat = size.largest;
     else largest.radius = size.largest;
     return {smallest, largest};
 }
 
 /// Of a body among all that it may touch, and between planes.
-BodyLoad loadOfBody(const Loads& loads, const BodiesAlike& body, const BodiesAlike::Size& size,
-                    const Side& own, const std::vector<Side>& partners, double sides) {
+BodyLoad loadOfBody(const ContactLoads& loads, const BodiesAlike& body, const BodiesAlike::Size& size,
+                    const TouchingBody& own, const std::vector<TouchingBody>& partners, double sides) {
     BodyLoad amongOthers, atPlanes, amongPlanes;
-    for (const Side& partner : partners) {
-        const Loads::Contact contact = loads.contactOf(own, partner);
+    for (const TouchingBody& partner : partners) {
+        const ContactLoads::Contact contact = loads.contactOf(own, partner);
         if (partner.isPlane) {
             const auto between = [&](double planes) {
                 return loads.ofBodyAtPlanes(contact, body.around, size.mass, planes);
@@ -233,15 +235,15 @@ BodyLoad loadOfBody(const Loads& loads, const BodiesAlike& body, const BodiesAli
 }
 
 /// Of the free spheres on such bodies: among these, or on one at its densest place.
-BodyLoad loadOfSpheres(const Loads& loads, const ContactLaws& species, const GrainSizes& alone,
-                       const ContactsAround& around, const Side& body) {
+BodyLoad loadOfSpheres(const ContactLoads& loads, const ContactLaws& species, const GrainSizes& alone,
+                       const ContactsAround& around, const TouchingBody& body) {
     const double touched = std::max(around.mean, around.most / loads.along());
     BodyLoad load;
     for (std::size_t s = 0; s < alone.free.size(); ++s) {
         if (alone.free[s].empty()) continue;
         for (const double radius : {alone.free[s].smallest, alone.free[s].largest}) {
             const double mass = species.massOf(s, radius);
-            const Side sphere{.species = s, .radius = radius, .mass = mass};
+            const TouchingBody sphere{.species = s, .radius = radius, .mass = mass};
             load = largest(load, loads.ofSphere(loads.contactOf(sphere, body), mass,
                                                 touchedBy(radius, body.radius, touched)));
         }
@@ -253,14 +255,14 @@ BodyLoad loadOfSpheres(const Loads& loads, const ContactLaws& species, const Gra
 
 BodyLoad loadOfBodies(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                       std::size_t contacts) {
-    const Loads loads(species, grains, contacts);
+    const ContactLoads loads(species, grains, contacts);
     const GrainSizes alone = grains.withoutBodies();
     BodyLoad ofBodies, ofSpheres;
-    const std::vector<Side> all = partners(species, grains, walls);
+    const std::vector<TouchingBody> all = partners(species, grains, walls);
     const double sides = sidesOfPlanes(walls);
     for (const BodiesAlike& body : grains.bodies)
         for (const BodiesAlike::Size& size : {body.least, body.most})
-            for (const Side& own : sidesOf(body, size)) {
+            for (const TouchingBody& own : sidesOf(body, size)) {
                 ofBodies = largest(ofBodies, loadOfBody(loads, body, size, own, all, sides));
                 ofSpheres = largest(ofSpheres, loadOfSpheres(loads, species, alone, body.around, own));
             }

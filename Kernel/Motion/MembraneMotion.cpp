@@ -12,7 +12,7 @@
 namespace pendular {
 namespace {
 
-using Step = MembraneMotion::Step;
+using MembraneStep = MembraneMotion::Step;
 using Column = MembraneState::Column;
 
 /// Calls function(number, membrane) for each.
@@ -56,7 +56,7 @@ void takeForces(const Membrane& membrane, std::size_t number, const ContactSyste
 
 /// In a step h of velocity Verlet each force F did h/2 (F + F+) . (v + v+)/2, exactly.
 MembraneWork workOf(const Membrane& membrane, const MembraneState& was, const MembraneState& is,
-                    const Step& step) {
+                    const MembraneStep& step) {
     const MembraneNet& net = membrane.getNet();
     MembraneWork work;
     const Vector<double> gravity = was.gravity + is.gravity;
@@ -86,11 +86,11 @@ MembraneWork workOf(const Membrane& membrane, const MembraneState& was, const Me
     return work;
 }
 
-std::string_view kindOf(const Membrane& membrane) {
+std::string_view kindOfMembrane(const Membrane& membrane) {
     return membrane.isOfHost() ? "whose vertices a host moves" : "a membrane";
 }
 
-void refuseCollapse(std::size_t number, const Membrane& membrane, const Step& step) {
+void refuseCollapse(std::size_t number, const Membrane& membrane, const MembraneStep& step) {
     const int triangle = membrane.getNet().collapsed(membrane.state().position, step.threads);
     if (triangle < 0) return;
     const auto& [a, b, c] = membrane.getNet().triangles()[static_cast<std::size_t>(triangle)];
@@ -99,12 +99,12 @@ void refuseCollapse(std::size_t number, const Membrane& membrane, const Step& st
     throw RunError(fmt::format(
         "At time {:.6g} s triangle {} of wall {}, {}, at ({:.6g}, {:.6g}, {:.6g}) m has collapsed or "
         "folded onto its neighbour: {}.",
-        step.time, triangle, number, kindOf(membrane), middle.x, middle.y, middle.z,
+        step.time, triangle, number, kindOfMembrane(membrane), middle.x, middle.y, middle.z,
         membrane.isOfHost() ? "the host must keep its triangles open"
                             : "press it less, or take a finer or a thicker net, or more damping"));
 }
 
-void refuseSelfContact(std::size_t number, Membrane& membrane, const Step& step) {
+void refuseSelfContact(std::size_t number, Membrane& membrane, const MembraneStep& step) {
     const auto found = membrane.findCrossing();
     if (!found) return;
     const auto& [a, b] = membrane.getNet().springs()[found->edge].ends;
@@ -112,7 +112,7 @@ void refuseSelfContact(std::size_t number, Membrane& membrane, const Step& step)
         "At time {:.6g} s wall {}, {}, goes through itself at ({:.6g}, {:.6g}, {:.6g}) m, the edge "
         "between its vertices {} and {} through triangle {}: it does not touch itself, so keep its parts "
         "apart by tension, by grains between them, or by a lower pressure.",
-        step.time, number, kindOf(membrane), found->place.x, found->place.y, found->place.z, a, b,
+        step.time, number, kindOfMembrane(membrane), found->place.x, found->place.y, found->place.z, a, b,
         found->triangle));
 }
 
@@ -196,7 +196,7 @@ void MembraneMotion::renewForces(const WallHandler& walls, const ContactSystem& 
     });
 }
 
-void MembraneMotion::begin(const WallHandler& walls, const Step& step) {
+void MembraneMotion::begin(const WallHandler& walls, const MembraneStep& step) {
     before.clear();
     forEachMembrane(walls, [&](std::size_t number, Membrane& membrane) {
         MembraneState next = membrane.state();
@@ -221,7 +221,7 @@ void MembraneMotion::begin(const WallHandler& walls, const Step& step) {
             throw RunError(
                 fmt::format("At time {:.6g} s the place of a vertex of wall {}, {}, is not finite: take a "
                             "smaller time step, or a smaller pressure.",
-                            step.time, number, kindOf(membrane)));
+                            step.time, number, kindOfMembrane(membrane)));
         for (const MembraneNet::Copy& copy : membrane.getNet().copies()) {
             next.position[copy.vertex] = next.position[copy.of] + copy.shift;
             next.velocity[copy.vertex] = next.velocity[copy.of];
@@ -231,7 +231,7 @@ void MembraneMotion::begin(const WallHandler& walls, const Step& step) {
             throw RunError(fmt::format(
                 "At time {:.6g} s a vertex of wall {}, {}, moves {:.4g} m in a step of {:.4g} s, more than "
                 "the smallest radius, {:.4g} m: {}.",
-                step.time, number, kindOf(membrane), farthest, step.length, step.smallestRadius,
+                step.time, number, kindOfMembrane(membrane), farthest, step.length, step.smallestRadius,
                 membrane.isOfHost() ? "take a smaller time step, or let the host move it slower"
                                     : "take a smaller time step, a smaller pressure or more damping"));
         membrane.goOn(std::move(next), farthest, step.threads);
@@ -241,7 +241,7 @@ void MembraneMotion::begin(const WallHandler& walls, const Step& step) {
 }
 
 void MembraneMotion::finish(const WallHandler& walls, const ContactSystem& contacts,
-                            const ParticleStore& grains, const Step& step, bool keepsWork) const {
+                            const ParticleStore& grains, const MembraneStep& step, bool keepsWork) const {
     std::size_t k = 0;
     forEachMembrane(walls, [&](std::size_t number, Membrane& membrane) {
         MembraneState end = membrane.state();

@@ -13,7 +13,7 @@
 namespace pendular {
 namespace {
 
-using Step = PlaneMotion::Step;
+using PlaneStep = PlaneMotion::Step;
 
 /// Calls function(number, wall, drive) for each plane that is moved by forces.
 template <class Function>
@@ -33,7 +33,7 @@ double accelerationOf(const Wall& wall, const PlaneDrive& drive, const Vector<do
 }
 
 /// Takes a piston's velocity to the start of the forces; returns its shift (m).
-double beginPiston(const Wall& wall, PlaneDrive& drive, const Step& step) {
+double beginPiston(const Wall& wall, PlaneDrive& drive, const PlaneStep& step) {
     const Integrator& s = step.scheme;
     drive.acceleration = accelerationOf(wall, drive, step.gravity);
     if (drive.steps == 0) drive.earlier = drive.acceleration;  // as of grains: no step before the first
@@ -44,7 +44,7 @@ double beginPiston(const Wall& wall, PlaneDrive& drive, const Step& step) {
 
 /// Gives a plane the velocity that its servo asks for; returns the plane's shift (m).
 double beginServo(const ContactSystem& contacts, const ParticleStore& grains, std::size_t number,
-                  const Wall& wall, PlaneDrive& drive, const Step& step) {
+                  const Wall& wall, PlaneDrive& drive, const PlaneStep& step) {
     constexpr double looksInTime = 100;
     const PlaneDriveSettings& asked = drive.asked;
     const auto interval =
@@ -65,7 +65,7 @@ double beginServo(const ContactSystem& contacts, const ParticleStore& grains, st
     return step.length * drive.velocity;
 }
 
-std::string nameOf(std::size_t wall, const PlaneDrive& drive) {
+std::string nameOfPlane(std::size_t wall, const PlaneDrive& drive) {
     return fmt::format("wall {}, a {},", wall, drive.isPiston() ? "piston" : "plane with a target force");
 }
 
@@ -84,7 +84,7 @@ double farthestGrain(const InfiniteWall& wall, const ParticleStore& grains, cons
 
 /// A plane that goes towards grains which it never meets: they may fall with it for a while, to a floor.
 void refuseEndlessWay(std::size_t number, const InfiniteWall& wall, PlaneDrive& drive,
-                      const ParticleStore& grains, const AllRanks& ranks, const Step& step) {
+                      const ParticleStore& grains, const AllRanks& ranks, const PlaneStep& step) {
     if (drive.touches > 0) {
         drive.travelled = drive.farthest = 0;
         return;
@@ -96,7 +96,7 @@ void refuseEndlessWay(std::size_t number, const InfiniteWall& wall, PlaneDrive& 
     throw RunError(fmt::format(
         "At time {:.6g} s {} has gone {:.4g} m towards the grains and met none: they go away from "
         "it; put it next to them, or give it its load when they are there.",
-        step.time, nameOf(number, drive), drive.travelled));
+        step.time, nameOfPlane(number, drive), drive.travelled));
 }
 
 }  // namespace
@@ -129,7 +129,7 @@ SpringAndDashpot wallStiffness(const ContactSystem& contacts, const ParticleStor
 }
 
 void PlaneMotion::begin(const WallHandler& walls, const ContactSystem& contacts, const ParticleStore& grains,
-                        const Step& step) {
+                        const PlaneStep& step) {
     before.clear();
     forEachDriven(walls, [&](std::size_t number, InfiniteWall& wall, PlaneDrive& drive) {
         before.push_back({number, drive, wall.getPose(), drive.velocity * wall.drivenNormal()});
@@ -148,12 +148,12 @@ void PlaneMotion::begin(const WallHandler& walls, const ContactSystem& contacts,
                 fmt::format("At time {:.6g} s {} has no grains to move against, and no inlet brings any; "
                             "remove the wall, or "
                             "give it a velocity, when the grains have gone.",
-                            step.time, nameOf(number, drive)));
+                            step.time, nameOfPlane(number, drive)));
         if (!(std::abs(shift) <= step.smallestRadius))
             throw RunError(fmt::format(
                 "At time {:.6g} s {} moves at {:.4g} m/s, farther in a step of {:.4g} s than the smallest "
                 "radius, {:.4g} m: take a smaller time step, a heavier piston, or a smaller load or speed.",
-                step.time, nameOf(number, drive), std::abs(shift) / step.length, step.length,
+                step.time, nameOfPlane(number, drive), std::abs(shift) / step.length, step.length,
                 step.smallestRadius));
         if (drive.touches == 0) drive.travelled = std::max(0.0, drive.travelled - shift);
         drive.meanVelocity = drive.seenVelocity = drive.velocity;
@@ -164,7 +164,7 @@ void PlaneMotion::begin(const WallHandler& walls, const ContactSystem& contacts,
     });
 }
 
-void PlaneMotion::finish(const WallHandler& walls, const Step& step) {
+void PlaneMotion::finish(const WallHandler& walls, const PlaneStep& step) {
     forEachDriven(walls, [&](std::size_t, InfiniteWall& wall, PlaneDrive& drive) {
         ++drive.steps;
         if (!drive.isPiston() || drive.waits) return;

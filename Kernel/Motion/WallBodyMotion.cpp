@@ -11,7 +11,7 @@
 namespace pendular {
 namespace {
 
-using Step = WallBodyMotion::Step;
+using WallBodyStep = WallBodyMotion::Step;
 
 /// Calls function(number, wall, body) for each wall that is a body.
 template <class Function>
@@ -49,7 +49,7 @@ double limited(const WallBody& body, double speed) {
     return std::clamp(speed, -body.asked.largestSpeed, body.asked.largestSpeed);
 }
 
-void beginAlongWay(const RigidWall& wall, WallBody& body, const Step& step) {
+void beginAlongWay(const RigidWall& wall, WallBody& body, const WallBodyStep& step) {
     const Integrator& s = step.scheme;
     const double h = step.length, v = body.speed, a = accelerationOf(wall, body, step.gravity);
     if (body.steps == 0) body.earlier = a;  // as of grains: no step before the first
@@ -62,7 +62,7 @@ void beginAlongWay(const RigidWall& wall, WallBody& body, const Step& step) {
     body.seen = body.velocityAt(limited(body, body.speed + (s.velocity0 + s.velocity1) * held));
 }
 
-void finishAlongWay(const RigidWall& wall, WallBody& body, const Step& step) {
+void finishAlongWay(const RigidWall& wall, WallBody& body, const WallBodyStep& step) {
     const Integrator& s = step.scheme;
     const double h = step.length, now = accelerationOf(wall, body, step.gravity);
     const double free =
@@ -79,13 +79,13 @@ void finishAlongWay(const RigidWall& wall, WallBody& body, const Step& step) {
 }
 
 /// The acceleration and the torque of a free body now.
-void takeForces(const RigidWall& wall, WallBody& body, const Step& step) {
+void takeForces(const RigidWall& wall, WallBody& body, const WallBodyStep& step) {
     body.free.acceleration =
         (1 / body.free.mass) * (toVector(wall.getForce()) + body.asked.force) + step.gravity;
     body.free.torque = torqueOn(wall, body) + body.asked.torque;
 }
 
-void beginFreely(const RigidWall& wall, WallBody& body, const Step& step) {
+void beginFreely(const RigidWall& wall, WallBody& body, const WallBodyStep& step) {
     const Integrator& s = step.scheme;
     const double h = step.length;
     RigidBody& free = body.free;
@@ -109,7 +109,7 @@ void beginFreely(const RigidWall& wall, WallBody& body, const Step& step) {
     body.seen = body.velocity();
 }
 
-void finishFreely(const RigidWall& wall, WallBody& body, const Step& step) {
+void finishFreely(const RigidWall& wall, WallBody& body, const WallBodyStep& step) {
     const Integrator& s = step.scheme;
     const double h = step.length;
     RigidBody& free = body.free;
@@ -136,7 +136,7 @@ void finishFreely(const RigidWall& wall, WallBody& body, const Step& step) {
 
 }  // namespace
 
-void WallBodyMotion::begin(const WallHandler& walls, const Step& step) {
+void WallBodyMotion::begin(const WallHandler& walls, const WallBodyStep& step) {
     before.clear();
     forEachBody(walls, [&](std::size_t number, const RigidWall& wall, const WallBody& body) {
         before.push_back({number, body, wall.getPose(), wall.shownVelocity()});
@@ -155,7 +155,7 @@ void WallBodyMotion::begin(const WallHandler& walls, const Step& step) {
     });
 }
 
-void WallBodyMotion::finish(const WallHandler& walls, const Step& step) {
+void WallBodyMotion::finish(const WallHandler& walls, const WallBodyStep& step) {
     forEachBody(walls, [&](std::size_t, RigidWall& wall, WallBody& body) {
         ++body.steps;
         if (body.isFree()) finishFreely(wall, body, step);

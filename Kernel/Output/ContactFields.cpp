@@ -181,9 +181,11 @@ std::vector<PolyDataField> contactFields(const ContactSystem& contacts, const Pa
     return columns.takeFields();
 }
 
+namespace {
+
 template <std::floating_point Real>
-PolyData contactLines(const ContactSystem& contacts, const ParticleStore& grains, const ContactLaws& laws,
-                      bool withPoints, int threads) {
+PolyData linesOf(const ContactSystem& contacts, const ParticleStore& grains, const ContactLaws& laws,
+                 bool withPoints, int threads) {
     PolyData data;
     data.kind = PolyData::Cells::Lines;
     data.points.reserve(grains.count());
@@ -216,6 +218,14 @@ PolyData contactLines(const ContactSystem& contacts, const ParticleStore& grains
     }
     data.cellFields = columns.takeFields();
     return data;
+}
+
+}  // namespace
+
+template <std::floating_point Real>
+PolyData contactLines(const ContactSystem& contacts, const ParticleStore& grains, const ContactLaws& laws,
+                      bool withPoints, int threads) {
+    return linesOf<Real>(contacts, grains, laws, withPoints, threads);
 }
 
 template PolyData contactLines<float>(const ContactSystem&, const ParticleStore&, const ContactLaws&, bool,

@@ -128,7 +128,7 @@ MercuryOutput::Domain MercuryOutput::domainOf(const ParticleStore& grains) {
     Domain box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
     for (const std::uint32_t place : grains.place) {
         const TranslationRecord& grain = grains.translation[place];
-        for (const auto axis : {&Vector<double>::x, &Vector<double>::y, &Vector<double>::z}) {
+        for (const auto axis : vectorAxes) {
             box.lowest.*axis = std::min(box.lowest.*axis, grain.position.*axis - grain.radius);
             box.highest.*axis = std::max(box.highest.*axis, grain.position.*axis + grain.radius);
         }

@@ -23,7 +23,7 @@ constexpr std::string_view lineBegin = "<DataSet timestep=\"", lastLine = "</VTK
 constexpr std::string_view partedEnding = ".pvtp";
 
 /// The value of an attribute of a line; empty where there is none.
-std::string valueOf(const std::string& line, std::string_view attribute) {
+std::string attributeOf(const std::string& line, std::string_view attribute) {
     const std::string mark = fmt::format(" {}=\"", attribute);
     const std::size_t begin = line.find(mark);
     if (begin == line.npos) return {};
@@ -43,8 +43,8 @@ std::vector<ParaViewEntry> readParaViewSeries(const std::filesystem::path& path)
         ++number;
         isWhole = isWhole || line.starts_with(lastLine);
         if (!line.starts_with(lineBegin)) continue;
-        ParaViewEntry entry{0, valueOf(line, "name"), path.parent_path() / valueOf(line, "file")};
-        if (!parseNumber(valueOf(line, "timestep"), entry.time) || entry.kind.empty() ||
+        ParaViewEntry entry{0, attributeOf(line, "name"), path.parent_path() / attributeOf(line, "file")};
+        if (!parseNumber(attributeOf(line, "timestep"), entry.time) || entry.kind.empty() ||
             !entry.file.has_filename())
             file.refuse("line", number, "it has no timestep, name and file");
         entries.push_back(std::move(entry));

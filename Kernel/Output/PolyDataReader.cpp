@@ -16,9 +16,9 @@ namespace pendular {
 namespace {
 
 /// The arrays of a file, taken tag by tag.
-class Reader {
+class PolyDataParser {
 public:
-    explicit Reader(std::string_view text) : arrays(text) {
+    explicit PolyDataParser(std::string_view text) : arrays(text) {
         for (const vtk::Tag& tag : arrays.tags) take(tag);
         requireWhole();
     }
@@ -97,7 +97,7 @@ PolyData readPolyData(const std::filesystem::path& path) {
     const InputFile file = loadInputFile("VTK file", path);
     if (recognise(file.text).content == FileContent::NoText) refuseOtherContent(file);
     try {
-        if (path.extension() != ".pvtp") return std::move(Reader(file.text).result);
+        if (path.extension() != ".pvtp") return std::move(PolyDataParser(file.text).result);
         std::vector<PolyData> pieces;
         for (const std::string& name : pieceNames(file.text)) {
             requireOwnIfThere(path.parent_path() / name);

@@ -17,8 +17,6 @@ namespace pendular {
 
 namespace {
 
-constexpr std::array axes{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
-
 /// Around the centres of all particles, also those of other ranks.
 Box boxOfCentres(const ParticleStore& grains, const AllRanks& ranks, double& largestRadius) {
     Box box;
@@ -29,7 +27,7 @@ Box boxOfCentres(const ParticleStore& grains, const AllRanks& ranks, double& lar
         radius = std::max(radius, grain.radius);
     }
     largestRadius = ranks.largest(radius);
-    for (const auto axis : axes) {
+    for (const auto axis : vectorAxes) {
         box.lowest.*axis = ranks.smallest(box.lowest.*axis);
         box.highest.*axis = ranks.largest(box.highest.*axis);
     }
@@ -51,7 +49,7 @@ Box boxOfSetUp(const Scene& scene) {
 
 /// Whether a box reaches farther than another one where no period bounds it.
 bool exceeds(const Box& box, const Box& other, const PeriodicBox& periodic, double slack) {
-    return std::ranges::any_of(axes, [&](auto axis) {
+    return std::ranges::any_of(vectorAxes, [&](auto axis) {
         return !(periodic.length.*axis > 0) && (box.lowest.*axis < other.lowest.*axis - slack ||
                                                 box.highest.*axis > other.highest.*axis + slack);
     });
@@ -69,7 +67,7 @@ void SceneBox::take(const Scene& scene) {
     reached.include(taken);
     const PeriodicBox& periodic = boxOfContacts(scene);
     double longest = 0;
-    for (const auto axis : axes)
+    for (const auto axis : vectorAxes)
         longest = std::max({longest, periodic.length.*axis, reached.highest.*axis - reached.lowest.*axis});
     const bool isFirst = isEmpty();
     const double slack = 1e-9 * longest;
@@ -89,7 +87,7 @@ void SceneBox::take(const Scene& scene) {
         return radius + std::max(radius, share * side);
     };
     const Box before = taken;
-    for (const auto axis : axes) {
+    for (const auto axis : vectorAxes) {
         double &low = taken.lowest.*axis, &high = taken.highest.*axis;
         if (periodic.length.*axis > 0) {
             low = periodic.lowest.*axis, high = low + periodic.length.*axis;
@@ -115,8 +113,8 @@ void SceneBox::visitState(StateArchive& archive, std::string_view name) {
     if (archive.isReading() ? !archive.holds(name) : isEmpty()) return;
     archive.finite(name, taken);
     archive.require(
-        std::ranges::all_of(axes, [&](auto axis) { return taken.lowest.*axis <= taken.highest.*axis; }), name,
-        "has a lowest corner above its highest one");
+        std::ranges::all_of(vectorAxes, [&](auto axis) { return taken.lowest.*axis <= taken.highest.*axis; }),
+        name, "has a lowest corner above its highest one");
 }
 
 }  // namespace pendular

@@ -67,8 +67,6 @@ void requireDistinctNames(const std::vector<PolyDataField>& fields, std::string_
                     fields[k].name, owners));
 }
 
-constexpr std::array axes{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
-
 template <class Real>
 PolyDataField fieldOf(const std::string& name, const FrameContent::GrainValue& valueOf,
                       const ParticleStore& grains) {
@@ -98,7 +96,7 @@ PolyData dropletPoints(const SprayHandler& sprays) {
         radii.push_back(static_cast<Real>(droplet.radius));
         volumes.push_back(static_cast<Real>(droplet.volume));
         numbers.push_back(static_cast<std::int32_t>(droplet.spray));
-        for (const auto axis : axes) velocities.push_back(static_cast<Real>(droplet.velocity.*axis));
+        for (const auto axis : vectorAxes) velocities.push_back(static_cast<Real>(droplet.velocity.*axis));
     }
     if (!data.corners.empty()) data.ends = {static_cast<std::int32_t>(data.corners.size())};
     data.pointFields = {{"radius_m", 1, std::move(radii)},

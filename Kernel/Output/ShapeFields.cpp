@@ -51,7 +51,7 @@ void addShapeFields(const ParticleStore& grains, const GrainShapes& shapes, Poly
         const auto [shape, axes, edgeRadius] = shapes.shapeAt(grains, place);
         for (const double length : {shape.a, shape.b, shape.c}) lengths.push_back(static_cast<float>(length));
         first.push_back(shape.n1), second.push_back(shape.n2);
-        for (const auto part : {&Vector<double>::x, &Vector<double>::y, &Vector<double>::z})
+        for (const auto part : vectorAxes)
             for (const Vector<double>* axis : {&axes.x, &axes.y, &axes.z})
                 orientation.push_back(static_cast<float>((*axis).*part));
     }

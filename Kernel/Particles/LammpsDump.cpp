@@ -29,7 +29,7 @@ std::vector<Snapshot> snapshotsOf(const InputFile& file) {
     return found;
 }
 
-Snapshot chosen(const InputFile& file, std::optional<std::int64_t> timestep) {
+Snapshot chosenSnapshot(const InputFile& file, std::optional<std::int64_t> timestep) {
     const std::vector<Snapshot> all = snapshotsOf(file);
     if (all.empty()) file.refuse("has no snapshot: no line 'ITEM: TIMESTEP'");
     if (!timestep) return all.back();
@@ -42,9 +42,9 @@ Snapshot chosen(const InputFile& file, std::optional<std::int64_t> timestep) {
 }
 
 /// The places of the columns in a row.
-class Columns {
+class DumpColumns {
 public:
-    Columns(const WordLines& header, const InputFile& file)
+    DumpColumns(const WordLines& header, const InputFile& file)
         : names(header.words().begin() + 2, header.words().end()) {
         for (const char* kind : {"x", "xu", "xs", "xsu"})
             if (position = triple(kind, "x"); position) {
@@ -120,7 +120,7 @@ private:
         hasBox = true;
     }
     std::vector<GrainRow> takeAtoms() {
-        const Columns columns(lines, file);
+        const DumpColumns columns(lines, file);
         if (columns.isScaled && (!hasBox || isTilted))
             file.refuse("has scaled coordinates (xs) in a tilted box, or without one; write x, y and z");
         NumberedGrains grains;
@@ -141,7 +141,7 @@ private:
         grains.sort(file);
         return grains.rows();
     }
-    [[nodiscard]] GrainRow grainOf(const Columns& columns) const {
+    [[nodiscard]] GrainRow grainOf(const DumpColumns& columns) const {
         const auto radius = columns.find("radius");
         GrainRow grain{radius ? lines.length(*radius) : 0.5 * lines.length(*columns.find("diameter")),
                        Vec3D::Zero()};
@@ -179,7 +179,7 @@ std::vector<GrainRow> readLammpsDump(const InputFile& file, std::optional<std::i
     first.next();
     if (first.words().size() > 1 && first.words()[1] == "UNITS" && first.next())
         refuseOtherUnits(file, first.words().front());
-    return DumpReader(file, chosen(file, timestep)).read();
+    return DumpReader(file, chosenSnapshot(file, timestep)).read();
 }
 
 }  // namespace pendular

@@ -24,7 +24,7 @@ struct LeesEdwards : ControlledRate {
 
     /// Fixes the speed of the images at the start of a run.
     LeesEdwards& settle(const PeriodicBox& box) {
-        speed = rate * box.length.*axes[gradient];
+        speed = rate * box.length.*vectorAxes[gradient];
         return *this;
     }
 
@@ -34,8 +34,8 @@ struct LeesEdwards : ControlledRate {
         const double before = speed;
         settle(box);
         if (speed == before) return 0;
-        box.imageVelocity.*axes[flow] = speed;
-        offset = box.imageShift.*axes[flow];
+        box.imageVelocity.*vectorAxes[flow] = speed;
+        offset = box.imageShift.*vectorAxes[flow];
         began = now;
         return speed - before;
     }
@@ -44,17 +44,14 @@ struct LeesEdwards : ControlledRate {
     /// time alone, not on the steps to it.
     void move(PeriodicBox& box, double now) const {
         if (!isSet) return;
-        const double width = box.length.*axes[gradient], period = box.length.*axes[flow];
+        const double width = box.length.*vectorAxes[gradient], period = box.length.*vectorAxes[flow];
         const double slid = std::fmod(offset + speed * (now - began), period);
         box.imagesMove = true;
-        box.across.*axes[gradient] = 1 / width;
-        box.imageShift.*axes[gradient] = width;
-        box.imageShift.*axes[flow] = slid < 0 ? slid + period : slid;
-        box.imageVelocity.*axes[flow] = speed;
+        box.across.*vectorAxes[gradient] = 1 / width;
+        box.imageShift.*vectorAxes[gradient] = width;
+        box.imageShift.*vectorAxes[flow] = slid < 0 ? slid + period : slid;
+        box.imageVelocity.*vectorAxes[flow] = speed;
     }
-
-    static constexpr double Vector<double>::*axes[] = {&Vector<double>::x, &Vector<double>::y,
-                                                       &Vector<double>::z};
 };
 
 }  // namespace pendular

@@ -81,8 +81,6 @@ double RigidBodies::exposedShareOf(std::uint32_t grain) const {
     return std::ranges::find(membersOf(find(body)), grain, &BodyMember::grain)->exposed;
 }
 
-static Quaternion inverse(const Quaternion& q) { return {q.real, -q.imaginary}; }
-
 Quaternion RigidBodies::orientationOf(std::size_t at) const {
     const Quaternion ofDry =
         dry.empty() ? bodies[at].orientation : bodies[at].orientation * inverse(dry[at].axes);

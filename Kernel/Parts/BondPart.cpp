@@ -73,7 +73,6 @@ static Quaternion turnTo(const Vector<double>& e) {
     if (e.x < 0) return turnTo(-e) * Quaternion{0, {0, 1, 0}};
     return Quaternion{1 + e.x, {0, -e.z, e.y}}.normalised();
 }
-static Quaternion inverse(const Quaternion& q) { return {q.real, -q.imaginary}; }
 
 /// Each rank keeps all bonds, so that all must ask for the same ones. Whether any does.
 bool BondPart::areAsked(const AllRanks& ranks) const {

@@ -31,7 +31,7 @@ std::optional<std::size_t> wallInFlow(const WallHandler& walls, const PeriodicBo
         const auto* const plane = dynamic_cast<const InfiniteWall*>(wall.get());
         if (!plane) return number;
         const Vector<double> normal = plane->drivenNormal();
-        for (const auto axis : LeesEdwards::axes)
+        for (const auto axis : vectorAxes)
             if (box.length.*axis > 0 && std::abs(normal.*axis) > roundOff) return number;
     }
     return {};
@@ -78,7 +78,7 @@ Features FlowPart::features(const StepContext& scene) const {
             found.add(Feature::WallsInStrain, fmt::format("wall {}", *wall));
     const auto isControlled = [](const AxisStrain& axis) { return axis.isControlled; };
     if (shear.isControlled || std::ranges::any_of(strain.axes, isControlled)) found.add(Feature::StressServo);
-    if (shear.isSet && scene.gravity.*LeesEdwards::axes[shear.gradient] != 0)
+    if (shear.isSet && scene.gravity.*vectorAxes[shear.gradient] != 0)
         found.add(Feature::GravityAlongGradient);
     return found;
 }
@@ -101,7 +101,7 @@ void FlowPart::checkServo(const StepContext& scene, double time, std::string_vie
             fmt::format("Simulation: time of the target {} = {:.6g} s; it must be more than half a "
                         "time step of {:.6g} s, or the stress would ring ever more.",
                         what, time, scene.length));
-    for (const auto axis : LeesEdwards::axes)
+    for (const auto axis : vectorAxes)
         if (!(scene.box.length.*axis > 0))
             throw InputError(fmt::format(
                 "Simulation: target {}: the scene does not repeat itself along all three axes, so its "
@@ -145,7 +145,7 @@ void FlowPart::beforeMotion(StepContext& step) {
     shearBefore = shear;
     if (step.length == 0) return;
     shearChange = {0, 0, 0};
-    if (shear.isSet) shearChange.*LeesEdwards::axes[shear.flow] = shear.begin(step.box, step.time);
+    if (shear.isSet) shearChange.*vectorAxes[shear.flow] = shear.begin(step.box, step.time);
     if (strain.isSet) strainChange = strain.begin(step.box, step.length);
     if (!strain.isSet && shearChange == Vector<double>{0, 0, 0}) return;
     step.particles.finishStep();
@@ -209,8 +209,8 @@ void FlowPart::setPeriodic(PeriodicBox& box, int axis, double lowest, double hig
     checkValue("Simulation", "periodic axis", axis, "", fromZeroTo(2));
     checkValue("Simulation", "periodic length", highest - lowest, "m",
                {radiusRange.lowest, infinity, true, false});  // of the smallest grains that there may be
-    box.lowest.*LeesEdwards::axes[axis] = lowest;
-    box.length.*LeesEdwards::axes[axis] = highest - lowest;
+    box.lowest.*vectorAxes[axis] = lowest;
+    box.length.*vectorAxes[axis] = highest - lowest;
     shear.settle(box);
     shear.move(box, now);
 }
@@ -223,7 +223,7 @@ void FlowPart::setLeesEdwards(PeriodicBox& box, int flow, int gradient, double r
         throw InputError(fmt::format(
             "Simulation: shear: the flow and its gradient are both along axis {}; take two axes.", flow));
     for (const int axis : {flow, gradient})
-        if (!(box.length.*LeesEdwards::axes[axis] > 0))
+        if (!(box.length.*vectorAxes[axis] > 0))
             throw InputError(
                 fmt::format("Simulation: shear: the scene does not repeat itself along axis {}; call "
                             "setPeriodic() for the flow and the gradient first.",
@@ -277,7 +277,7 @@ AxisStrain& FlowPart::axisToStrain(const PeriodicBox& box, int axis, std::string
             fmt::format("Simulation: {}: the scene was not set up to be strained; call setStrainRate() at "
                         "set-up (a rate of 0 will do).",
                         what));
-    if (!(box.length.*LeesEdwards::axes[axis] > 0))
+    if (!(box.length.*vectorAxes[axis] > 0))
         throw InputError(fmt::format(
             "Simulation: {}: the scene does not repeat itself along axis {}; call setPeriodic() first.", what,
             axis));
@@ -345,7 +345,7 @@ void FlowPart::visitSetting(StateArchive& archive, StepContext& scene) {
     archive.finite("lowest", box.lowest);
     archive.finite("length", box.length);
     archive.finite("imageSpeed", box.strainRate);
-    for (const auto axis : LeesEdwards::axes)
+    for (const auto axis : vectorAxes)
         archive.require((box.length.*axis > 0) == (atSetUp.*axis > 0), "length",
                         "is not that of a periodic scene");
 }

@@ -216,11 +216,10 @@ static bool remembersMoreThanSprings(const ContactLaws& laws) {
 /// Grains that the scene brings back would be at another distance from these faces at once. Throws
 /// InputError.
 void GrainCopies::refuseFacesAcross(const PeriodicBox& box) const {
-    constexpr std::array axes{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
     for (int axis = 0; axis < 3; ++axis)
         for (const Passage& passage : passages)
             for (const Vec3D& normal : passage.outwards)
-                if (box.length.*axes[axis] > 0 && std::abs(normal[axis]) > 1e-9)
+                if (box.length.*vectorAxes[axis] > 0 && std::abs(normal[axis]) > 1e-9)
                     throw InputError(fmt::format(
                         "copies of grains: a face with the normal ({:.4g}, {:.4g}, {:.4g}) is not along {}, "
                         "along which the scene is periodic; leave setPeriodic() of that axis out, or take "

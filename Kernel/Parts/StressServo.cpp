@@ -14,7 +14,7 @@
 namespace pendular {
 namespace {
 
-std::array<double, 3> partsOf(const Vector<double>& v) { return {v.x, v.y, v.z}; }
+std::array<double, 3> alongAxes(const Vector<double>& v) { return {v.x, v.y, v.z}; }
 
 /// Pa, of the velocities against the flow and the mean of all: along each axis, and between the two axes of a
 /// shear.
@@ -29,7 +29,7 @@ KineticStress kineticStress(const ParticleStore& grains, const AllRanks& ranks, 
     std::array<ExactSum, 3> momentum, twiceEnergy;
     KineticStress stress;
     const auto add = [&](double inverseMass, const Vector<double>& position, const Vector<double>& of) {
-        const auto velocity = partsOf(of - box.flowAt(position));
+        const auto velocity = alongAxes(of - box.flowAt(position));
         masses.add(1 / inverseMass);
         for (std::size_t a = 0; a < 3; ++a) {
             momentum[a].add(velocity[a] / inverseMass);
@@ -160,8 +160,8 @@ DiagonalStress diagonalStress(const ContactSystem& contacts, const ParticleStore
         const double spring =
             overlap > 0 ? contacts.laws().normalStiffness(bucket.species1, bucket.species2, bodies, overlap)
                         : 0;
-        const auto shift = partsOf(along), force = partsOf(contacts.forceOf(contact));
-        const auto branch = partsOf(apart + (arms.at(place1) - arms.at(place2)));
+        const auto shift = alongAxes(along), force = alongAxes(contacts.forceOf(contact));
+        const auto branch = alongAxes(apart + (arms.at(place1) - arms.at(place2)));
         double share = 0;  // of the controlled axes in the direction of the contact
         std::array<double, 3> part{};
         for (std::size_t a = 0; a < 3; ++a) {

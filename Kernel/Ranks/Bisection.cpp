@@ -23,14 +23,14 @@ void Bisection::cut(std::vector<Point> points, std::span<const double> shares) {
 
 namespace {
 
-struct Cut {
+struct BisectionCut {
     double border = infinity;  // m
     double width = -1;         // m, of the slab around it that has so many points as a layer
 };
 
 /// Where the share of the weight is on the low side, and how thick a layer of points is there.
 /// @param points place (m) and weight, in any order
-Cut findCut(std::vector<std::pair<double, double>> points, double share) {
+BisectionCut findCut(std::vector<std::pair<double, double>> points, double share) {
     const auto begin = points.begin();
     const auto at = [&](std::size_t k) { return begin + static_cast<std::ptrdiff_t>(k); };
     const auto weightOf = [&](std::size_t from, std::size_t to) {
@@ -72,17 +72,19 @@ std::uint32_t Bisection::cutPart(std::span<Point> points, std::span<const double
         return std::accumulate(some.begin(), some.end(), 0.0);
     };
     const double share = sumOf(shares.first(lowRanks)) / sumOf(shares);
-    Cut best;
+    BisectionCut best;
     std::uint32_t axis = 0;
     std::vector<std::pair<double, double>> along(points.size());
     for (std::uint32_t a = 0; a < 3; ++a) {
-        std::ranges::transform(points, along.begin(),
-                               [&](const Point& p) { return std::pair(p.position.*axes[a], p.weight); });
-        if (const Cut found = findCut(along, share); found.width > best.width) best = found, axis = a;
+        std::ranges::transform(points, along.begin(), [&](const Point& p) {
+            return std::pair(p.position.*vectorAxes[a], p.weight);
+        });
+        if (const BisectionCut found = findCut(along, share); found.width > best.width)
+            best = found, axis = a;
     }
     nodes[number].axis = axis;
     nodes[number].border = best.border;
-    const auto isLow = [&](const Point& p) { return p.position.*axes[axis] < best.border; };
+    const auto isLow = [&](const Point& p) { return p.position.*vectorAxes[axis] < best.border; };
     const auto next =
         static_cast<std::size_t>(std::partition(points.begin(), points.end(), isLow) - points.begin());
     const std::uint32_t low = cutPart(points.first(next), shares.first(lowRanks), firstRank),
@@ -96,7 +98,7 @@ std::uint32_t Bisection::cutPart(std::span<Point> points, std::span<const double
 std::size_t Bisection::ownerOf(const Vector<double>& position) const {
     std::uint32_t at = 0;
     while (nodes[at].axis != leaf)
-        at = position.*axes[nodes[at].axis] < nodes[at].border ? nodes[at].low : nodes[at].high;
+        at = position.*vectorAxes[nodes[at].axis] < nodes[at].border ? nodes[at].low : nodes[at].high;
     return nodes[at].low;
 }
 

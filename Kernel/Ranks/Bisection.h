@@ -40,7 +40,7 @@ public:
                 function(static_cast<std::size_t>(node.low));
                 continue;
             }
-            const double place = position.*axes[node.axis];
+            const double place = position.*vectorAxes[node.axis];
             if (place - far < node.border) open.push_back(node.low);
             if (place + far >= node.border) open.push_back(node.high);
         }
@@ -48,8 +48,6 @@ public:
 
 private:
     static constexpr std::uint32_t leaf = 3;
-    static constexpr double Vector<double>::*axes[] = {&Vector<double>::x, &Vector<double>::y,
-                                                       &Vector<double>::z};
     struct Node {
         std::uint32_t axis = leaf;
         double border = 0;                // m; what is below it is on the low side

@@ -38,7 +38,8 @@ void* openModule() {
 std::string othersOf(const StartedTogether& started) {
     return fmt::format("{} = {} says that processes were started together", started.variable, started.count);
 }
-constexpr std::string_view alone = "set PENDULAR_RANKS=1 for runs that have nothing to do with each other";
+constexpr std::string_view howToRunAlone =
+    "set PENDULAR_RANKS=1 for runs that have nothing to do with each other";
 
 ProcessRanks* startRanks() {
     const StartedTogether started = startedTogether();
@@ -47,25 +48,25 @@ ProcessRanks* startRanks() {
         throw InputError(
             fmt::format("{} = {} says that there are processors for several processes, but this is one: "
                         "start it with mpirun or srun --mpi=pmix, or {}.",
-                        started.variable, started.count, alone));
+                        started.variable, started.count, howToRunAlone));
     void* const module = openModule();
     if (!module)
         throw InputError(
             fmt::format("{}, but this build of Pendular has no MPI: install libopenmpi-dev "
                         "(Tools/install-dependencies.sh --mpi) and build again with PENDULAR_MPI=ON, or {}.",
-                        othersOf(started), alone));
+                        othersOf(started), howToRunAlone));
     const auto make = reinterpret_cast<ProcessRanks* (*)()>(dlsym(module, "makePendularRanks3"));
     if (!make)
         throw InputError(fmt::format(
             "{}, but PendularMpi.so is of another version of Pendular than this program: build, or "
             "install, both again, or {}.",
-            othersOf(started), alone));
+            othersOf(started), howToRunAlone));
     ProcessRanks* const ranks = make();
     if (ranks->count() != started.count)
         throw InputError(
             fmt::format("{}, but MPI knows {} of them: take the mpirun of the MPI with which Pendular was "
                         "built, or {}.",
-                        othersOf(started), ranks->count(), alone));
+                        othersOf(started), ranks->count(), howToRunAlone));
     return ranks;
 }
 

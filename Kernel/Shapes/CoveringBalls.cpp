@@ -12,7 +12,7 @@ constexpr int mostPieces = 48, mostAcross = 7;
 /// Points of a piece are taken on columns, so many across a piece; between them the surface may be farther
 /// from the middle of the ball by up to half a percent, at sharp edges.
 constexpr int columns = 9;
-constexpr double between = 1.01;
+constexpr double betweenColumns = 1.01;
 
 using Cut = std::array<int, 3>;  // pieces along each axis
 
@@ -32,15 +32,15 @@ double heightAbove(const Superquadric& s, int axis, double u, double v) {
 }
 
 /// The part of a superquadric in the octant x, y, z >= 0 that is in one piece of a cut.
-struct Piece {
+struct SurfacePiece {
     std::array<double, 3> low, high;      // m
     std::array<bool, 3> isInMiddle;       // the piece goes on as far at the other side of 0
     std::vector<Eigen::Vector3d> points;  // m, of its border
 };
 
-Piece pieceAt(const Superquadric& s, const Cut& cut, const Cut& at) {
+SurfacePiece pieceAt(const Superquadric& s, const Cut& cut, const Cut& at) {
     const std::array<double, 3> half{s.a, s.b, s.c};
-    Piece piece;
+    SurfacePiece piece;
     for (std::size_t d = 0; d < 3; ++d) {
         const double edge = 2 * half[d] / cut[d];
         piece.isInMiddle[d] = cut[d] % 2 == 1 && at[d] == 0;
@@ -68,7 +68,7 @@ Piece pieceAt(const Superquadric& s, const Cut& cut, const Cut& at) {
 
 /// The smallest ball around points, nearly: its middle goes to the farthest one by smaller and smaller steps.
 /// Source: Badoiu and Clarkson (2003), Proc. 14th ACM-SIAM Symp. Discrete Algorithms, 801.
-Ball ballAround(const Piece& piece) {
+Ball ballAround(const SurfacePiece& piece) {
     const auto farthestFrom = [&](const Eigen::Vector3d& centre) {
         return *std::ranges::max_element(
             piece.points, {}, [&](const Eigen::Vector3d& p) { return (p - centre).squaredNorm(); });
@@ -83,7 +83,7 @@ Ball ballAround(const Piece& piece) {
             if (piece.isInMiddle[static_cast<std::size_t>(d)]) way[d] = 0;
         ball.centre += way / (k + 1.0);
     }
-    ball.radius = between * (farthestFrom(ball.centre) - ball.centre).norm();
+    ball.radius = betweenColumns * (farthestFrom(ball.centre) - ball.centre).norm();
     return ball;
 }
 
@@ -94,7 +94,7 @@ std::vector<Ball> ballsOfOctant(const Superquadric& shape, const Cut& cut) {
     for (int i = 0; i < layers(0); ++i)
         for (int j = 0; j < layers(1); ++j)
             for (int k = 0; k < layers(2); ++k)
-                if (const Piece piece = pieceAt(shape, cut, {i, j, k}); !piece.points.empty())
+                if (const SurfacePiece piece = pieceAt(shape, cut, {i, j, k}); !piece.points.empty())
                     balls.push_back(ballAround(piece));
     return balls;
 }

@@ -13,7 +13,7 @@ namespace pendular {
 namespace {
 
 /// The largest (u X)^2 + (v Y)^2 on X^n + Y^n = 1, rooted: the norm dual to that of n/2, of the squares.
-double farthest(double u, double v, int n) {
+double farthestCorner(double u, double v, int n) {
     const double larger = std::max(u, v), smaller = std::min(u, v);
     if (n == 2) return larger;
     const double dual = n / (n - 2.0);
@@ -53,6 +53,6 @@ MassProperties Superquadric::mass() const {
     return found;
 }
 
-double Superquadric::boundingRadius() const { return farthest(farthest(a, b, n2), c, n1); }
+double Superquadric::boundingRadius() const { return farthestCorner(farthestCorner(a, b, n2), c, n1); }
 
 }  // namespace pendular

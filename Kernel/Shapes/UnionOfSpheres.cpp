@@ -16,7 +16,7 @@ namespace pendular {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The integrals over the height of all parts of a slice, of z times the first three, and of z z.
 enum Moment { V, Sx, Sy, Sz, Sxx, Syy, Szz, Sxy, Sxz, Syz, Moments };
@@ -178,12 +178,12 @@ std::vector<Ball> withNeighbours(std::span<const Ball> spheres, std::size_t own)
 }
 
 /// The cap of a sphere that another one covers: the direction of its middle, its half angle (rad).
-struct Cap {
+struct SphereCap {
     Eigen::Vector3d middle;
     double half, height;  // rad; over the radius
 };
-std::vector<Cap> capsOn(const Ball& sphere, std::span<const Ball> others) {
-    std::vector<Cap> caps;
+std::vector<SphereCap> capsOn(const Ball& sphere, std::span<const Ball> others) {
+    std::vector<SphereCap> caps;
     for (const Ball& other : others) {
         const Eigen::Vector3d apart = other.centre - sphere.centre;
         const double d = apart.norm(), r = sphere.radius, s = other.radius;
@@ -193,23 +193,24 @@ std::vector<Cap> capsOn(const Ball& sphere, std::span<const Ball> others) {
     return caps;
 }
 
-double between(const Cap& a, const Cap& b) {
+double between(const SphereCap& a, const SphereCap& b) {
     return std::acos(std::clamp(a.middle.dot(b.middle), -1.0, 1.0));
 }
 
 /// Removes those that are within another one, as those of next neighbours in a chain.
-void removeHidden(std::vector<Cap>& caps) {
-    std::ranges::sort(caps, std::ranges::greater{}, &Cap::half);
-    std::vector<Cap> left;
-    for (const Cap& cap : caps)
-        if (std::ranges::none_of(
-                left, [&](const Cap& larger) { return between(cap, larger) + cap.half <= larger.half; }))
+void removeHidden(std::vector<SphereCap>& caps) {
+    std::ranges::sort(caps, std::ranges::greater{}, &SphereCap::half);
+    std::vector<SphereCap> left;
+    for (const SphereCap& cap : caps)
+        if (std::ranges::none_of(left, [&](const SphereCap& larger) {
+                return between(cap, larger) + cap.half <= larger.half;
+            }))
             left.push_back(cap);
     caps.swap(left);
 }
 
 /// The share of a sphere's surface that is free of caps, if no two of them have a point in common.
-bool freeOfSeparateCaps(std::vector<Cap> caps, double& share) {
+bool freeOfSeparateCaps(std::vector<SphereCap> caps, double& share) {
     removeHidden(caps);
     share = 1;
     for (std::size_t k = 0; k < caps.size(); ++k) {

@@ -8,11 +8,12 @@
 namespace pendular {
 namespace {
 
-constexpr const char* axes[] = {"x", "y", "z"};
+constexpr const char* namesOfDomainAxes[] = {"x", "y", "z"};
 
 void requireFinite(const char* which, const Vec3D& point) {
     for (int axis = 0; axis < 3; ++axis)
-        checkValue("Domain", fmt::format("{} of the {}", axes[axis], which), point[axis], "m", anyFinite);
+        checkValue("Domain", fmt::format("{} of the {}", namesOfDomainAxes[axis], which), point[axis], "m",
+                   anyFinite);
 }
 
 void requireOrder(const Vec3D& low, const Vec3D& high) {
@@ -21,7 +22,7 @@ void requireOrder(const Vec3D& low, const Vec3D& high) {
             throw InputError(
                 fmt::format("Domain: along {} the lowest point is {} m and the highest {} m; "
                             "the highest one must not be less.",
-                            axes[axis], low[axis], high[axis]));
+                            namesOfDomainAxes[axis], low[axis], high[axis]));
 }
 
 Vec3D given(const std::optional<Vec3D>& point, const char* which) {

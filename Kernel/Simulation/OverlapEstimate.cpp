@@ -81,10 +81,10 @@ ContactStiffness stiffnessAt(const PairLaws& pair, const Bodies& bodies, double 
     return found;
 }
 
-struct Loads {
+struct BedLoads {
     double pressure, speed;  // Pa, m/s
 };
-Loads loadsOf(const Scene& scene, const ParticleStore& grains, const GrainSizes& sizes, double pressure) {
+BedLoads loadsOf(const Scene& scene, const ParticleStore& grains, const GrainSizes& sizes, double pressure) {
     const Vector<double> gravity = toVector(scene.getGravity()), side = sizes.highest - sizes.lowest;
     const double g = norm(gravity);
     double mass = 0, fastest = 0;
@@ -109,7 +109,7 @@ OverlapEstimate estimateOverlaps(Scene& scene, double pressure) {
     if (grains.count() == 0)
         throw InputError("Simulation: overlaps are estimated for grains that are there; add them first.");
     const GrainSizes sizes = scene.grainSizes(grains);
-    const Loads loads = loadsOf(scene, grains, sizes, pressure);
+    const BedLoads loads = loadsOf(scene, grains, sizes, pressure);
     found.pressure = loads.pressure, found.speed = loads.speed;
     const double heaviest = heaviestBody(grains);
     const Integrator scheme = schemeOfScene(scene.laws(), sizes, scene.wallHandler, scene.getIntegrator());

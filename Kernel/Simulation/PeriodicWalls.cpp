@@ -16,7 +16,6 @@ namespace pendular {
 
 namespace {
 
-constexpr std::array along{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
 constexpr std::array<Vector<double>, 3> units{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 constexpr std::array names{'x', 'y', 'z'};
 
@@ -61,13 +60,13 @@ double PeriodicWalls::neededOf(const Wall& wall, const ContactLaws& laws, const 
 PeriodicFaces PeriodicWalls::facesOf(std::size_t axis, double least) const {
     const double needed = least + widestBand * smallest;
     PeriodicFaces faces{.along = units[axis],
-                        .lowest = periodic.lowest.*along[axis],
-                        .length = periodic.length.*along[axis],
-                        .width = std::min(2 * needed, 0.5 * periodic.length.*along[axis]),
+                        .lowest = periodic.lowest.*vectorAxes[axis],
+                        .length = periodic.length.*vectorAxes[axis],
+                        .width = std::min(2 * needed, 0.5 * periodic.length.*vectorAxes[axis]),
                         .tolerance = tolerance * smallest,
                         .others = {}};
     for (std::size_t k = 0; k < 3; ++k) {
-        const double length = periodic.length.*along[k], low = periodic.lowest.*along[k];
+        const double length = periodic.length.*vectorAxes[k], low = periodic.lowest.*vectorAxes[k];
         if (k == axis || length == 0) continue;
         faces.others.push_back({units[k], low + length + needed});
         faces.others.push_back({-units[k], needed - low});
@@ -77,8 +76,8 @@ PeriodicFaces PeriodicWalls::facesOf(std::size_t axis, double least) const {
 
 std::string PeriodicWalls::sentence(std::size_t wall, std::size_t axis, const SurfaceAtFaces& seen,
                                     double met) const {
-    const double needed = 1.001 * met, low = periodic.lowest.*along[axis],
-                 high = low + periodic.length.*along[axis];
+    const double needed = 1.001 * met, low = periodic.lowest.*vectorAxes[axis],
+                 high = low + periodic.length.*vectorAxes[axis];
     const std::string advice = fmt::format(
         "only meshes are repeated, and grains at a face meet them up to {:.4g} m beyond it: let it go "
         "on alike for {:.6g} m beyond both faces, or end {:.6g} m before them.",
@@ -104,7 +103,7 @@ std::string PeriodicWalls::sentence(std::size_t wall, std::size_t axis, const Su
 void PeriodicWalls::requireShort(const RepeatedWall& wall, std::size_t number) const {
     const Vector<double> half = wall.surroundings().half;
     for (std::size_t k = 0; k < 3; ++k) {
-        const double length = 2 * half.*along[k], period = periodic.length.*along[k];
+        const double length = 2 * half.*vectorAxes[k], period = periodic.length.*vectorAxes[k];
         if (period > 0 && length > WallImages::mostPeriods * period)
             throw InputError(fmt::format(
                 "wall {} is {:.6g} m long along {}, and it is not the same after a period of {:.6g} m: a "
@@ -170,7 +169,7 @@ std::vector<RepeatedWall*> PeriodicWalls::wallsToRepeat(const WallHandler& walls
         if (wall->partCount() > WallImages::mostParts) continue;  // it will be refused
         const double needed = neededOf(*wall, laws, sizes, own.bodyReach);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (box.length.*along[axis] == 0) continue;
+            if (box.length.*vectorAxes[axis] == 0) continue;
             const PeriodicFaces faces = own.facesOf(axis, needed);
             if (!mustBeRepeated(*wall, wall->atFaces(faces), faces, needed)) continue;
             found.push_back(wall);
@@ -234,7 +233,7 @@ void PeriodicWalls::check(const WallHandler& walls, bool haveChanged, const Peri
         const double needed = of.needed = neededOf(wall, laws, sizes, bodyReach);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const Look& known = of.along[axis];
-            if (periodic.length.*along[axis] == 0) continue;
+            if (periodic.length.*vectorAxes[axis] == 0) continue;
             if (isOther || needed != known.needed || !isWhereItWas(wall, known)) look(wall, of, axis, 0);
         }
         for (const Look& known : of.along) spare = std::min(spare, known.margin - needed);
@@ -283,7 +282,7 @@ bool PeriodicWalls::isWhereItWas(const Wall& wall, const Look& last) {
 /// Turns about the axis and shifts carry what is alike at both faces along: then only the shift along the
 /// axis brings an end nearer.
 bool PeriodicWalls::mustBeLookedAt(const Wall& wall, std::size_t axis, WallLooks& of, double shift) const {
-    const double length = periodic.length.*along[axis];
+    const double length = periodic.length.*vectorAxes[axis];
     if (length == 0 || wall.isRepeated()) return false;
     Look& last = of.along[axis];
     const double spare = last.margin - (of.needed + band) * rounded;
@@ -296,7 +295,8 @@ bool PeriodicWalls::mustBeLookedAt(const Wall& wall, std::size_t axis, WallLooks
     const double tilt = norm(since.turn(units[axis]) - units[axis]);
     if (last.isEndless) return tilt > 0;
     if (last.passes)
-        return !(length * tilt <= 0.1 * tolerance * smallest && std::abs(since.shift.*along[axis]) <= spare);
+        return !(length * tilt <= 0.1 * tolerance * smallest &&
+                 std::abs(since.shift.*vectorAxes[axis]) <= spare);
     if (!isWhereItWas(wall, last)) last.moved += shift;
     return !(last.moved <= spare);
 }
@@ -327,8 +327,8 @@ void PeriodicWalls::follow(const WallHandler& walls, double shift, double time) 
 
 void PeriodicWalls::approach(const Vector<double>& centre) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double length = periodic.length.*along[axis],
-                     above = centre.*along[axis] - periodic.lowest.*along[axis];
+        const double length = periodic.length.*vectorAxes[axis],
+                     above = centre.*vectorAxes[axis] - periodic.lowest.*vectorAxes[axis];
         if (length > 0) nearest = std::min(nearest, band + std::min(above, length - above));
     }
 }

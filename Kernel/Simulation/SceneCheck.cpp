@@ -166,7 +166,7 @@ void refuseDeepOverlaps(const ContactStore& store, const ParticleStore& grains, 
 }
 
 void refuseFarFaces(const PeriodicBox& box, double smallestRadius) {
-    for (const auto axis : {&Vector<double>::x, &Vector<double>::y, &Vector<double>::z})
+    for (const auto axis : vectorAxes)
         if (box.length.*axis > 0)
             for (const double face : {box.lowest.*axis, box.lowest.*axis + box.length.*axis}) {
                 Vector<double> place{0, 0, 0};

@@ -45,7 +45,6 @@ void Scene::Inside::visitScene(StateArchive& archive) {
 /// has changed it.
 void Scene::Inside::visitSurroundings(StateArchive& archive) {
     constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
-    constexpr std::array along{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
     archive.value("gravityChanged", gravityChanged);
     if (gravityChanged) archive.finite("gravity", context.gravity);
     ParticleHandler::Inside::setGravity(scene.particleHandler, context.gravity);
@@ -61,9 +60,9 @@ void Scene::Inside::visitSurroundings(StateArchive& archive) {
     }
     for (std::size_t k = 0; k < 3; ++k) {
         if (!gravityChanged)
-            archive.group("gravity", [&] { archive.same(axes[k], context.gravity.*along[k], "m/s^2"); });
-        archive.group("periodicLowest", [&] { archive.same(axes[k], lowestAtSetUp.*along[k], "m"); });
-        archive.group("periodicLength", [&] { archive.same(axes[k], lengthAtSetUp.*along[k], "m"); });
+            archive.group("gravity", [&] { archive.same(axes[k], context.gravity.*vectorAxes[k], "m/s^2"); });
+        archive.group("periodicLowest", [&] { archive.same(axes[k], lowestAtSetUp.*vectorAxes[k], "m"); });
+        archive.group("periodicLength", [&] { archive.same(axes[k], lengthAtSetUp.*vectorAxes[k], "m"); });
     }
 }
 

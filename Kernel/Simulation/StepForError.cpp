@@ -50,7 +50,7 @@ struct Meeting {
 };
 
 /// How they meet.
-struct Approach {
+struct StepApproach {
     double normal, slip;  // m/s
     double gap;           // m
 };
@@ -101,7 +101,7 @@ private:
 /// The scene of a collision, along x.
 class Collision : public Scene {
 public:
-    Collision(ContactLaws& of, const Meeting& pair, const Approach& given, double step,
+    Collision(ContactLaws& of, const Meeting& pair, const StepApproach& given, double step,
               const Integrator& integrator)
         : meeting(pair), approach(given) {
         setLaws(of);
@@ -195,7 +195,7 @@ private:
     }
 
     Meeting meeting;
-    Approach approach;
+    StepApproach approach;
     double lastMoved = 0;  // s, when they were not still
 };
 
@@ -317,7 +317,7 @@ private:
     /// @param before the touch, steps
     [[nodiscard]] Aftermath finish(const Angle& at, double step, double before,
                                    const Integrator& integrator) const {
-        const Approach approach{at.normal, at.slip, meeting.range + before * step * at.normal};
+        const StepApproach approach{at.normal, at.slip, meeting.range + before * step * at.normal};
         return Collision(scene.laws(), meeting, approach, step, integrator).finish(work);
     }
 

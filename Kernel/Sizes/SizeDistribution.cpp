@@ -15,7 +15,7 @@ namespace pendular {
 namespace {
 
 /// d^k; k may be negative.
-double power(double d, int k) {
+double powerOfDiameter(double d, int k) {
     double result = 1;
     for (int n = std::abs(k); n > 0; --n) result *= d;
     return k < 0 ? 1 / result : result;
@@ -80,16 +80,16 @@ SizeDistribution::SizeDistribution(std::vector<SizePanel> given, SizeBasis shape
 
 double SizeDistribution::numberDensity(const SizePanel& panel, double d) const {
     const double along = (d - panel.low) / (panel.high - panel.low);
-    return std::lerp(panel.atLow, panel.atHigh, along) * (law ? law(d) : 1) * power(d, -shapePower);
+    return std::lerp(panel.atLow, panel.atHigh, along) * (law ? law(d) : 1) * powerOfDiameter(d, -shapePower);
 }
 
 double SizeDistribution::panelMoment(int k, const SizePanel& panel, double from, double to) const {
-    if (isSingle(panel)) return panel.atLow * power(panel.low, k);
+    if (isSingle(panel)) return panel.atLow * powerOfDiameter(panel.low, k);
     const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
     double sum = 0;
     for (const QuadratureNode& node : gaussLegendre(16)) {
         const double d = middle + half * node.position;
-        sum += node.weight * power(d, k) * numberDensity(panel, d);
+        sum += node.weight * powerOfDiameter(d, k) * numberDensity(panel, d);
     }
     return half * sum;
 }
@@ -131,7 +131,7 @@ double SizeDistribution::density(SizeBasis basis, double diameter) const {
                                         [](const SizePanel& p, double d) { return p.high < d; });
     if (panel == panels.end() || diameter < panel->low) return 0;
     if (isSingle(*panel)) return infinity;
-    return power(diameter, k) * numberDensity(*panel, diameter) / borders[k].back();
+    return powerOfDiameter(diameter, k) * numberDensity(*panel, diameter) / borders[k].back();
 }
 
 /// The diameter up to which a panel has an amount of M_k: Newton's method, with a step of bisection wherever
@@ -146,7 +146,7 @@ double SizeDistribution::solve(int k, const SizePanel& panel, double amount) con
         const double excess = panelMoment(k, panel, panel.low, d) - amount;
         if (excess == 0) return d;
         (excess > 0 ? high : low) = d;
-        double next = d - excess / (power(d, k) * numberDensity(panel, d));
+        double next = d - excess / (powerOfDiameter(d, k) * numberDensity(panel, d));
         if (!(next > low && next < high)) next = 0.5 * (low + high);
         if (std::abs(next - d) <= 4e-16 * d) return next;  // two units in the last place
         d = next;

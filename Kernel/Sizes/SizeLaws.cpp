@@ -15,18 +15,19 @@ namespace pendular {
 
 namespace {
 
-constexpr std::string_view owner = "SizeDistribution";
+constexpr std::string_view ownerOfLaw = "SizeDistribution";
 
 void checkDiameter(std::string_view field, double value) {
-    checkValue(owner, field, value, "m", diameterRange);
+    checkValue(ownerOfLaw, field, value, "m", diameterRange);
 }
 
 void checkCuts(double low, double high) {
     checkDiameter("smallest diameter", low);
     checkDiameter("largest diameter", high);
     if (!(low < high))
-        throw InputError(fmt::format(
-            "{}: the smallest diameter {:g} m must be below the largest one, {:g} m.", owner, low, high));
+        throw InputError(
+            fmt::format("{}: the smallest diameter {:g} m must be below the largest one, {:g} m.", ownerOfLaw,
+                        low, high));
 }
 
 /// The law on panels between borders given by a function of 0 ... count.
@@ -42,7 +43,7 @@ SizeDistribution onRatios(double low, double high, double ratio, SizeBasis basis
                           std::function<double(double)> law) {
     if (!(low < high))
         throw InputError(
-            fmt::format("{}: the cuts leave no grains of the law that are worth counting.", owner));
+            fmt::format("{}: the cuts leave no grains of the law that are worth counting.", ownerOfLaw));
     const double all = std::log(high / low);
     const int count = std::max(1, static_cast<int>(std::ceil(all / std::log(ratio))));
     return onPanels(
@@ -84,7 +85,7 @@ CutLaw normalSizes(double mean, double deviation, double low, double high) {
     const double panels = std::max(1.0, std::ceil((to - from) / (panelLength * deviation)));
     if (!(from < to))
         throw InputError(
-            fmt::format("{}: the cuts leave no grains of the law that are worth counting.", owner));
+            fmt::format("{}: the cuts leave no grains of the law that are worth counting.", ownerOfLaw));
     SizeDistribution sizes = onPanels(
         static_cast<int>(panels), [=](int k) { return k == panels ? to : from + (to - from) * k / panels; },
         SizeBasis::Number, [=](double d) { return std::exp(-0.5 * std::pow((d - mean) / deviation, 2)); });
@@ -95,7 +96,7 @@ CutLaw normalSizes(double mean, double deviation, double low, double high) {
 
 CutLaw lognormalSizes(double median, double geometricDeviation, double low, double high, SizeBasis basis) {
     checkDiameter("median diameter", median);
-    checkValue(owner, "geometric standard deviation", geometricDeviation, "", {1, 100, false, true});
+    checkValue(ownerOfLaw, "geometric standard deviation", geometricDeviation, "", {1, 100, false, true});
     checkCuts(low, high);
     const double sigma = std::log(geometricDeviation);
     const double middle = std::log(median) - static_cast<int>(basis) * sigma * sigma;  // of the numbers
@@ -120,7 +121,7 @@ CutLaw lognormalSizesFromMean(double mean, double deviation, double low, double 
 
 CutLaw rosinRammlerSizes(double size, double exponent, double low, double high) {
     checkDiameter("Rosin-Rammler size", size);
-    checkValue(owner, "Rosin-Rammler exponent", exponent, "", {0.1, 100});
+    checkValue(ownerOfLaw, "Rosin-Rammler exponent", exponent, "", {0.1, 100});
     checkCuts(low, high);
     const auto above = [=](double d) { return std::exp(-std::pow(d / size, exponent)); };
     const auto density = [=](double d) {
@@ -133,7 +134,7 @@ CutLaw rosinRammlerSizes(double size, double exponent, double low, double high) 
 }
 
 SizeDistribution bidisperseSizes(double small, double large, double volumeOfLarge) {
-    checkValue(owner, "volume fraction of the large grains", volumeOfLarge, "", fromZeroTo(1));
+    checkValue(ownerOfLaw, "volume fraction of the large grains", volumeOfLarge, "", fromZeroTo(1));
     return singleSizes(std::array{small, large}, std::array{1 - volumeOfLarge, volumeOfLarge},
                        SizeBasis::Volume);
 }

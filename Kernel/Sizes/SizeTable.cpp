@@ -10,7 +10,7 @@ namespace pendular {
 
 namespace {
 
-constexpr std::string_view owner = "SizeDistribution";
+constexpr std::string_view ownerOfTable = "SizeDistribution";
 
 /// How far a sum of fractions with six digits may be from the whole.
 constexpr double sumTolerance = 1e-6;
@@ -18,15 +18,15 @@ constexpr double sumTolerance = 1e-6;
 void checkTable(std::span<const double> diameters, std::span<const double> values, std::size_t expected,
                 std::string_view what) {
     if (diameters.empty() || values.size() != expected)
-        throw InputError(fmt::format("{}: {} diameters need {} values of {}, but there are {}.", owner,
+        throw InputError(fmt::format("{}: {} diameters need {} values of {}, but there are {}.", ownerOfTable,
                                      diameters.size(), expected, what, values.size()));
     for (std::size_t k = 0; k < diameters.size(); ++k) {
-        checkValue(owner, "diameter", diameters[k], "m", diameterRange);
+        checkValue(ownerOfTable, "diameter", diameters[k], "m", diameterRange);
         if (k > 0 && !(diameters[k] > diameters[k - 1]))
             throw InputError(fmt::format("{}: the diameter {:g} m follows {:g} m; diameters must increase.",
-                                         owner, diameters[k], diameters[k - 1]));
+                                         ownerOfTable, diameters[k], diameters[k - 1]));
     }
-    for (const double value : values) checkValue(owner, what, value, "", notNegative);
+    for (const double value : values) checkValue(ownerOfTable, what, value, "", notNegative);
 }
 
 /// m^(k+1), the integral of d^k over a class.
@@ -58,12 +58,12 @@ SizeDistribution sizesFromCumulative(std::span<const double> diameters, std::spa
         throw InputError(fmt::format(
             "{}: the cumulative fraction goes from {:g} to {:g}; it must go from 0 to 1 (begin with the "
             "diameter that no grain is smaller than).",
-            owner, cumulative.front(), cumulative.back()));
+            ownerOfTable, cumulative.front(), cumulative.back()));
     std::vector<double> fractions;
     for (std::size_t k = 1; k < cumulative.size(); ++k) {
         if (cumulative[k] < cumulative[k - 1])
             throw InputError(fmt::format("{}: the cumulative fraction falls from {:g} to {:g} at {:g} m.",
-                                         owner, cumulative[k - 1], cumulative[k], diameters[k]));
+                                         ownerOfTable, cumulative[k - 1], cumulative[k], diameters[k]));
         fractions.push_back(cumulative[k] - cumulative[k - 1]);
     }
     return sizesFromClasses(diameters, fractions, basis, within);
@@ -91,12 +91,12 @@ SizeDistribution singleSizes(std::span<const double> diameters, std::span<const 
 
 namespace {
 
-enum class Kind { Cumulative, Class, Single, Density };
+enum class TableKind { Cumulative, Class, Single, Density };
 
 /// The columns, as the first line of a file says them.
-struct Columns {
+struct TableColumns {
     double scale;  // m, of one unit as a diameter
-    Kind kind;
+    TableKind kind;
     SizeBasis basis;
     double whole;  // 1 or 100
 };
@@ -133,11 +133,11 @@ std::optional<double> scaleOf(std::string_view name) {
     return lookUp(scales, name);
 }
 
-std::optional<Columns> columnsOf(std::string_view line) {
-    static constexpr std::pair<std::string_view, Kind> kinds[] = {{"cumulative", Kind::Cumulative},
-                                                                  {"class", Kind::Class},
-                                                                  {"single", Kind::Single},
-                                                                  {"density", Kind::Density}};
+std::optional<TableColumns> columnsOf(std::string_view line) {
+    static constexpr std::pair<std::string_view, TableKind> kinds[] = {{"cumulative", TableKind::Cumulative},
+                                                                       {"class", TableKind::Class},
+                                                                       {"single", TableKind::Single},
+                                                                       {"density", TableKind::Density}};
     static constexpr std::pair<std::string_view, SizeBasis> bases[] = {{"number", SizeBasis::Number},
                                                                        {"length", SizeBasis::Length},
                                                                        {"area", SizeBasis::Area},
@@ -154,12 +154,12 @@ std::optional<Columns> columnsOf(std::string_view line) {
     const auto scale = scaleOf(cells[0]);
     const auto kind = lookUp(kinds, second.substr(0, bar));
     const auto basis = lookUp(bases, second.substr(bar + 1));
-    if (!scale || !kind || !basis || (*kind == Kind::Density && isPercent)) return {};
-    return Columns{*scale, *kind, *basis, isPercent ? 100.0 : 1.0};
+    if (!scale || !kind || !basis || (*kind == TableKind::Density && isPercent)) return {};
+    return TableColumns{*scale, *kind, *basis, isPercent ? 100.0 : 1.0};
 }
 
 struct Rows {
-    Columns columns;
+    TableColumns columns;
     std::vector<double> diameters, values;  // m; of the whole
     std::size_t lastLine = 0;
 };
@@ -188,8 +188,8 @@ void addRow(const InputFile& file, std::size_t line, std::string_view text, Rows
                     fmt::format("the diameter is {:g} m; it must be {}", diameter, diameterRange.text("m")));
     if (!rows.diameters.empty() && !(diameter > rows.diameters.back()))
         file.refuse("line", line, "the size is not larger than that of the row before");
-    const bool isCumulative = rows.columns.kind == Kind::Cumulative;
-    if (rows.diameters.empty() && (isCumulative || rows.columns.kind == Kind::Class) && value != 0)
+    const bool isCumulative = rows.columns.kind == TableKind::Cumulative;
+    if (rows.diameters.empty() && (isCumulative || rows.columns.kind == TableKind::Class) && value != 0)
         file.refuse(
             "line", line,
             fmt::format(
@@ -202,8 +202,8 @@ void addRow(const InputFile& file, std::size_t line, std::string_view text, Rows
     rows.lastLine = line;
 }
 
-Rows readRows(const InputFile& file) {
-    std::optional<Columns> columns;
+Rows readSizeRows(const InputFile& file) {
+    std::optional<TableColumns> columns;
     Rows rows;
     std::string_view rest = file.text;
     for (std::size_t line = 1; !rest.empty(); ++line) {
@@ -230,17 +230,17 @@ Rows readRows(const InputFile& file) {
 
 void checkWhole(const InputFile& file, const Rows& rows) {
     const auto [scale, kind, basis, whole] = rows.columns;
-    if (rows.diameters.size() < (kind == Kind::Single ? 1 : 2))
+    if (rows.diameters.size() < (kind == TableKind::Single ? 1 : 2))
         file.refuse(fmt::format("has {} rows; there must be {} at least", rows.diameters.size(),
-                                kind == Kind::Single ? 1 : 2));
-    if (kind == Kind::Density) return;
+                                kind == TableKind::Single ? 1 : 2));
+    if (kind == TableKind::Density) return;
     double sum = 0;
     for (const double value : rows.values) sum += value;
-    if (kind == Kind::Cumulative && !(std::abs(rows.values.back() - 1) <= 1e-9))
+    if (kind == TableKind::Cumulative && !(std::abs(rows.values.back() - 1) <= 1e-9))
         file.refuse("line", rows.lastLine,
                     fmt::format("the cumulative values end at {:g}; they must end at {:g}",
                                 rows.values.back() * whole, whole));
-    if (kind != Kind::Cumulative && !(std::abs(sum - 1) <= sumTolerance))
+    if (kind != TableKind::Cumulative && !(std::abs(sum - 1) <= sumTolerance))
         file.refuse(fmt::format("has values whose sum is {:g}; it must be {:g}", sum * whole, whole));
 }
 
@@ -248,19 +248,19 @@ void checkWhole(const InputFile& file, const Rows& rows) {
 
 SizeDistribution readSizeTable(const std::filesystem::path& path, std::optional<InClass> within) {
     const InputFile file = loadTextFile("size table", path);
-    const Rows rows = readRows(file);
+    const Rows rows = readSizeRows(file);
     checkWhole(file, rows);
     const std::span<const double> diameters = rows.diameters, values = rows.values;
     const SizeBasis basis = rows.columns.basis;
     const InClass inClass = within.value_or(InClass::EvenOnBasis);
     switch (rows.columns.kind) {
-        case Kind::Cumulative:
+        case TableKind::Cumulative:
             return sizesFromCumulative(diameters, values, basis, inClass);
-        case Kind::Class:
+        case TableKind::Class:
             return sizesFromClasses(diameters, values.subspan(1), basis, inClass);
-        case Kind::Single:
+        case TableKind::Single:
             return singleSizes(diameters, values, basis);
-        case Kind::Density:
+        case TableKind::Density:
             break;
     }
     return sizesFromDensity(diameters, values, basis);

@@ -42,7 +42,9 @@ bool sendTogether(const ReadingProcess::Channel& to, const Head& head, std::stri
     return to.send(message.data(), message.size());
 }
 
-std::size_t bytesOf(const TableShape& shape) { return shape.rows * shape.columns * bytesOf(shape.kind); }
+std::size_t bytesOfNumbers(const TableShape& shape) {
+    return shape.rows * shape.columns * bytesOf(shape.kind);
+}
 
 ReadingProcess::Limits limitsFor(const std::filesystem::path& file) {
     std::error_code ignored;
@@ -101,8 +103,8 @@ Hdf5Reading::Answer Hdf5Reading::answerTo(const Request& request, const std::str
             }
             break;
         case What::Table:
-            ReadingProcess::allowMemory(memoryOfLibrary + bytesOf(wanted));
-            content.resize(bytesOf(wanted));
+            ReadingProcess::allowMemory(memoryOfLibrary + bytesOfNumbers(wanted));
+            content.resize(bytesOfNumbers(wanted));
             file.read(name, wanted, content.data());
             break;
         case What::Text:
@@ -155,8 +157,8 @@ std::optional<TableShape> Hdf5Reading::shapeOf(const std::string& name) {
 void Hdf5Reading::read(const std::string& name, const TableShape& shape, void* numbers) {
     if (shape.rows == 0) return;
     const Answer answer = ask({What::Table, shape.kind, shape.rows, shape.columns}, name);
-    const bool isWhole = answer.bytes == bytesOf(shape);
-    requireTaken(answer, isWhole && process.channel().receive(numbers, bytesOf(shape)));
+    const bool isWhole = answer.bytes == bytesOfNumbers(shape);
+    requireTaken(answer, isWhole && process.channel().receive(numbers, bytesOfNumbers(shape)));
 }
 
 std::string Hdf5Reading::readText(const std::string& name) {

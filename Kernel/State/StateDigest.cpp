@@ -28,7 +28,7 @@ auto ofKind(NumberKind kind, Function&& function) {
     return function(std::uint8_t{});
 }
 
-std::size_t bytesOf(const TableShape& shape) {
+std::size_t bytesOfTable(const TableShape& shape) {
     const std::size_t each = ofKind(shape.kind, [](auto number) { return sizeof number; });
     return shape.rows * shape.columns * each;
 }
@@ -64,7 +64,7 @@ std::string shownNumbers(const TableShape& shape, const void* numbers, std::stri
 
 void StateDigest::add(std::string_view group, std::string_view name, std::string_view unit,
                       const TableShape& shape, const void* numbers) {
-    const std::size_t bytes = bytesOf(shape);
+    const std::size_t bytes = bytesOfTable(shape);
     if (bytes > largest) return;
     if (keep == Keep::HashOnly) return addBytes(all, numbers, bytes);
     WordHash own;

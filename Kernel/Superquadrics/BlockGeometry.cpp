@@ -7,7 +7,7 @@ namespace pendular {
 namespace {
 
 /// A grain as its contact sees it.
-struct Side {
+struct GrainInTouch {
     const BlockPart& part;
     const TranslationRecord& grain;
     Vector<double> spin;  // rad/s
@@ -39,7 +39,7 @@ struct Side {
 
 /// Writes what follows of a touch: the sides' responses are added where there are two. Responses are those
 /// of the points of the surfaces, as in SuperquadricGeometry.
-void complete(EightTouches::Lane& lane, const BoxTouch& touch, const Side& first) {
+void complete(EightTouches::Lane& lane, const BoxTouch& touch, const GrainInTouch& first) {
     const TangentPlane<double> plane(touch.normal);
     const Vector<double> point = touch.arm1 + (0.5 * touch.depth) * touch.normal;
     lane.normal = touch.normal;
@@ -53,7 +53,7 @@ void complete(EightTouches::Lane& lane, const BoxTouch& touch, const Side& first
     lane.turningResponse = first.turningResponse();
 }
 
-void addSecond(EightTouches::Lane& lane, const Side& second, const Vector<double>& shift) {
+void addSecond(EightTouches::Lane& lane, const GrainInTouch& second, const Vector<double>& shift) {
     const TangentPlane<double> plane(lane.normal);
     lane.arm2 = lane.arm1 - shift;
     const Vector<double> point = lane.arm2 - (0.5 * lane.depth) * lane.normal;
@@ -90,7 +90,7 @@ SuperquadricGeometry SuperquadricHandler::geometryOfBlocks(const ContactTask& ta
         if ((listed >> k & 1) == 0) continue;  // of no meaning
         lane.radius1 = lane.radius2 = grain1.radius;
         const BlockPart part1 = partAt(one);
-        const Side first{part1, grain1, task.rotation[one].spin};
+        const GrainInTouch first{part1, grain1, task.rotation[one].spin};
         if (isAtWall) {
             if (!Blocks::touchesWalls(part1)) continue;
             const WallPointColumns& points = task.store.wallPoints[block - task.store.firstWallBlock()];

@@ -15,10 +15,10 @@ WallPoint nearest(const Wall& wall, std::uint32_t part, const Vector<double>& po
 }
 
 /// The vector (x, y) of M (x, y) = (a, b).
-struct Flat {
+struct FlatVector {
     double u, v;
 };
-Flat solve(double uu, double uv, double vu, double vv, const Flat& right) {
+FlatVector solve(double uu, double uv, double vu, double vv, const FlatVector& right) {
     const double scale = 1 / (uu * vv - uv * vu);
     return {scale * (vv * right.u - uv * right.v), scale * (uu * right.v - vu * right.u)};
 }
@@ -95,21 +95,22 @@ Vector<double> ShapeAtWall::newtonShift(const Wall& wall, std::uint32_t part, co
     // (A - r)^-1 = (1 - r K)^-1 K
     const Curvature<double> a = k.inverse();
     const Curvature<double> s = Curvature<double>{a.uu - ballRadius, a.vv - ballRadius, a.uv}.inverse();
-    const Flat g{dot(now.towards, plane.u), dot(now.towards, plane.v)};
+    const FlatVector g{dot(now.towards, plane.u), dot(now.towards, plane.v)};
     const double shift = 1e-5 * ballRadius;
-    const auto turnBy = [&](const Vector<double>& axis) -> Flat {  // -H axis
+    const auto turnBy = [&](const Vector<double>& axis) -> FlatVector {  // -H axis
         const Vector<double> change =
             (1 / shift) * (nearest(wall, part, now.point + shift * axis).normal - now.towards);
         return {dot(change, plane.u), dot(change, plane.v)};
     };
     const bool isBeyond = now.distance < 0;
-    const Flat byU = isBeyond ? Flat{0, 0} : turnBy(plane.u), byV = isBeyond ? Flat{0, 0} : turnBy(plane.v);
+    const FlatVector byU = isBeyond ? FlatVector{0, 0} : turnBy(plane.u),
+                     byV = isBeyond ? FlatVector{0, 0} : turnBy(plane.v);
     const double uu = s.uu - byU.u, uv = s.uv - byV.u, vu = s.uv - byU.v, vv = s.vv - byV.v;
-    Flat w = solve(uu, uv, vu, vv, g);
+    FlatVector w = solve(uu, uv, vu, vv, g);
     // A step that does not lead down goes the way of a wall that is flat.
     const double decrease = w.u * g.u + w.v * g.v;
     if (!(uu * vv - uv * vu > 0) || !(decrease > 0)) w = solve(s.uu, s.uv, s.uv, s.vv, g);
-    const Flat t{s.uu * w.u + s.uv * w.v, s.uv * w.u + s.vv * w.v};
+    const FlatVector t{s.uu * w.u + s.uv * w.v, s.uv * w.u + s.vv * w.v};
     return (w.u + ballRadius * t.u) * plane.u + (w.v + ballRadius * t.v) * plane.v;
 }
 

@@ -12,22 +12,26 @@ namespace pendular {
 
 namespace {
 
-using Point = ProfilePoint;
+ProfilePoint operator-(const ProfilePoint& a, const ProfilePoint& b) {
+    return {a.radius - b.radius, a.height - b.height};
+}
+double product(const ProfilePoint& a, const ProfilePoint& b) {
+    return a.radius * b.radius + a.height * b.height;
+}
+double length(const ProfilePoint& a) { return std::hypot(a.radius, a.height); }
+bool same(const ProfilePoint& a, const ProfilePoint& b) {
+    return a.radius == b.radius && a.height == b.height;
+}
 
-Point operator-(const Point& a, const Point& b) { return {a.radius - b.radius, a.height - b.height}; }
-double product(const Point& a, const Point& b) { return a.radius * b.radius + a.height * b.height; }
-double length(const Point& a) { return std::hypot(a.radius, a.height); }
-bool same(const Point& a, const Point& b) { return a.radius == b.radius && a.height == b.height; }
-
-Point nearestOn(const Point& begin, const Point& end, const Point& from) {
-    const Point along = end - begin;
+ProfilePoint nearestOn(const ProfilePoint& begin, const ProfilePoint& end, const ProfilePoint& from) {
+    const ProfilePoint along = end - begin;
     const double share = std::clamp(product(from - begin, along) / product(along, along), 0.0, 1.0);
     if (share == 1) return end;
     return {begin.radius + share * along.radius, begin.height + share * along.height};
 }
 
 /// Whether two segments that leave a common point in directions a and b go on smoothly.
-bool smoothly(const Point& a, const Point& b) {
+bool smoothly(const ProfilePoint& a, const ProfilePoint& b) {
     return product(a, b) < -smoothCosine * length(a) * length(b);
 }
 
@@ -66,7 +70,7 @@ AxisymmetricWall::Meridian AxisymmetricWall::meridianOf(const Vector<double>& ce
 
 AxisymmetricWall::Segment AxisymmetricWall::segmentOf(std::uint32_t part) const {
     const double side = part % 2 == 0 ? 1 : -1;
-    const Point &a = profile[part / 2], &b = profile[part / 2 + 1];
+    const ProfilePoint &a = profile[part / 2], &b = profile[part / 2 + 1];
     return {{side * a.radius, a.height}, {side * b.radius, b.height}};
 }
 
@@ -82,7 +86,8 @@ void AxisymmetricWall::listInBody(const Vector<double>& centre, double reach,
     const Meridian at = meridianOf(centre);
     for (std::uint32_t part = 0; part < 2 * (profile.size() - 1); ++part) {
         const Segment segment = segmentOf(part);
-        const Point shift = nearestOn(segment.begin, segment.end, {at.r, at.z}) - Point{at.r, at.z};
+        const ProfilePoint shift =
+            nearestOn(segment.begin, segment.end, {at.r, at.z}) - ProfilePoint{at.r, at.z};
         if (product(shift, shift) < reach * reach) parts.push_back(part);
     }
 }
@@ -90,10 +95,10 @@ void AxisymmetricWall::listInBody(const Vector<double>& centre, double reach,
 void AxisymmetricWall::findInBody(const Vector<double>& centre, double reach,
                                   std::span<const std::uint32_t> parts, std::span<WallPoint> points) const {
     const Meridian at = meridianOf(centre);
-    const Point here{at.r, at.z};
+    const ProfilePoint here{at.r, at.z};
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const Segment segment = segmentOf(parts[k]);
-        const Point shift = nearestOn(segment.begin, segment.end, here) - here;
+        const ProfilePoint shift = nearestOn(segment.begin, segment.end, here) - here;
         const double distance = std::sqrt(product(shift, shift));
         const Vector<double> normal =
             distance > 0 ? (shift.radius / distance) * at.radial + (shift.height / distance) * axis
@@ -108,7 +113,7 @@ void AxisymmetricWall::findInBody(const Vector<double>& centre, double reach,
     });
 }
 
-bool AxisymmetricWall::holds(std::uint32_t part, const Point& point, double tolerance) const {
+bool AxisymmetricWall::holds(std::uint32_t part, const ProfilePoint& point, double tolerance) const {
     const Segment a = segmentOf(part);
     return length(nearestOn(a.begin, a.end, point) - point) < tolerance;
 }
@@ -125,8 +130,8 @@ bool AxisymmetricWall::isCrossedInBody(const Vector<double>& from, const Vector<
     // The way is short against all radii that matter: in the plane of (r, z) it is a straight line.
     const Meridian m1 = meridianOf(from), m2 = meridianOf(to);
     const double side = dot(m1.radial, m2.radial) < 0 ? -1 : 1;  // through the axis
-    const Point begin{m1.r, m1.z}, end{side * m2.r, m2.z};
-    const auto sideOf = [](const Point& a, const Point& b, const Point& p) {
+    const ProfilePoint begin{m1.r, m1.z}, end{side * m2.r, m2.z};
+    const auto sideOf = [](const ProfilePoint& a, const ProfilePoint& b, const ProfilePoint& p) {
         return (b.radius - a.radius) * (p.height - a.height) - (b.height - a.height) * (p.radius - a.radius);
     };
     for (std::uint32_t part = 0; part < 2 * (profile.size() - 1); ++part) {
@@ -146,11 +151,12 @@ void AxisymmetricWall::visitShape(StateArchive& archive) const {
 }
 
 SurfaceExtent AxisymmetricWall::extent() const {
-    const auto [low, high] = std::minmax_element(
-        profile.begin(), profile.end(), [](const Point& a, const Point& b) { return a.height < b.height; });
+    const auto [low, high] =
+        std::minmax_element(profile.begin(), profile.end(),
+                            [](const ProfilePoint& a, const ProfilePoint& b) { return a.height < b.height; });
     const double middle = 0.5 * (low->height + high->height);
     double radius = 0;
-    for (const Point& p : profile) radius = std::max(radius, std::hypot(p.radius, p.height - middle));
+    for (const ProfilePoint& p : profile) radius = std::max(radius, std::hypot(p.radius, p.height - middle));
     return {SurfaceExtent::Symmetry::Axis, origin + middle * axis, radius, axis};
 }
 
@@ -160,7 +166,7 @@ SurfaceAtFaces AxisymmetricWall::atFaces(const PeriodicFaces& faces) const {
     const double cosine = dot(direction, faces.along), sine = norm(cross(direction, faces.along)),
                  middle = dot(place, faces.along);
     double low = infinity, high = -infinity, widest = 0;  // m
-    for (const Point& p : profile) {
+    for (const ProfilePoint& p : profile) {
         low = std::min(low, middle + cosine * p.height - sine * p.radius);
         high = std::max(high, middle + cosine * p.height + sine * p.radius);
         widest = std::max(widest, p.radius);
@@ -170,11 +176,11 @@ SurfaceAtFaces AxisymmetricWall::atFaces(const PeriodicFaces& faces) const {
     const Vector<double> outward = anyAcross(faces.along), across = cross(faces.along, outward);
     std::vector<Polygon> strip;
     for (std::size_t k = 1; k < profile.size(); ++k) {
-        const auto at = [&](const Point& p, double along) {
+        const auto at = [&](const ProfilePoint& p, double along) {
             const double height = cosine < 0 ? -p.height : p.height;
             return (middle + height) * faces.along + p.radius * outward + along * across;
         };
-        const Point &begin = profile[k - 1], &end = profile[k];
+        const ProfilePoint &begin = profile[k - 1], &end = profile[k];
         strip.push_back({at(begin, 0), at(end, 0), at(end, faces.length), at(begin, faces.length)});
     }
     PeriodicFaces own = faces;
@@ -193,7 +199,7 @@ void FiniteCylinder::set(const Vec3D& direction, const Vec3D& point, double radi
 WallSurface AxisymmetricWall::surfaceInBody(const SceneSphere&) const {
     WallSurface surface;
     for (std::size_t k = 1; k < profile.size(); ++k) {
-        const Point &begin = profile[k - 1], &end = profile[k];
+        const ProfilePoint &begin = profile[k - 1], &end = profile[k];
         const auto facets = turnedAround(axis, anyAcross(axis), origin + begin.height * axis, begin.radius,
                                          origin + end.height * axis, end.radius);
         surface.polygons.insert(surface.polygons.end(), facets.begin(), facets.end());

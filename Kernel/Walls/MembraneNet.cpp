@@ -34,7 +34,7 @@ void checkMaterial(const MembraneMaterial& m) {
             m.poissonsRatio));
 }
 
-constexpr std::size_t worthAThread = 512;  // springs, hinges, triangles
+constexpr std::size_t springsWorthAThread = 512;  // springs, hinges, triangles
 
 /// The first number below count for which something is so; count where it is so for none.
 template <class Condition>
@@ -46,7 +46,7 @@ std::size_t firstOf(std::size_t count, int threads, const Condition& isSo) {
             while (first < end && !isSo(first)) ++first;
             if (first < end) ofParts[static_cast<std::size_t>(part)] = first;
         },
-        worthAThread);
+        springsWorthAThread);
     return std::ranges::min(ofParts);
 }
 
@@ -251,7 +251,7 @@ void MembraneNet::addElasticForces(Points at, std::span<Point> forces, int threa
                 pulls[e] = (spring.stiffness * (length - spring.length) / length) * along;
             }
         },
-        worthAThread);
+        springsWorthAThread);
     inParts(
         folds.size(), threads,
         [&](int, std::size_t first, std::size_t end) {
@@ -261,7 +261,7 @@ void MembraneNet::addElasticForces(Points at, std::span<Point> forces, int threa
                 for (std::size_t k = 0; k < 4; ++k) pushes[h][k] = moment * now.by[k];
             }
         },
-        worthAThread);
+        springsWorthAThread);
     for (std::size_t e = 0; e < edges.size(); ++e) {
         forces[edges[e].ends[0]] += pulls[e];
         forces[edges[e].ends[1]] -= pulls[e];

@@ -22,7 +22,7 @@ using Index = std::uint32_t;
 using Point = Vector<double>;
 
 /// More sides would make the search along them costly; a disc of more is cut into sectors.
-constexpr std::size_t mostCorners = 64;
+constexpr std::size_t mostCornersOfRing = 64;
 
 /// A convex polygon while parts are made: its corners in a ring, seen with the normal towards the eye
 /// counter-clockwise.
@@ -232,7 +232,7 @@ private:
         const std::size_t lower = ring.size();
         for (std::size_t k = points.size() - 1; k-- > 0;) add(points[k], lower);
         ring.pop_back();
-        if (ring.size() < 3 || ring.size() > mostCorners) return {};
+        if (ring.size() < 3 || ring.size() > mostCornersOfRing) return {};
         double twice = 0;
         for (std::size_t k = 0; k < ring.size(); ++k) {
             const Flat &a = ring[k], &b = ring[(k + 1) % ring.size()];

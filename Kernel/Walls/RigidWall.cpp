@@ -22,7 +22,7 @@ Vector<double> alongSurface(const Vector<double>& velocity, const Vector<double>
     return velocity - dot(velocity, normal) * normal;
 }
 
-std::string shown(const Vector<double>& v) { return fmt::format("({}, {}, {})", v.x, v.y, v.z); }
+std::string shownPoint(const Vector<double>& v) { return fmt::format("({}, {}, {})", v.x, v.y, v.z); }
 
 }  // namespace
 
@@ -270,8 +270,9 @@ void RigidWall::visitState(StateArchive& archive) {
 void RigidWall::requireSameMotion(const StateArchive& archive) const {
     const auto require = [&](std::string_view name, const Vector<double>& kept, const Vector<double>& asked,
                              double error, std::string_view unit) {
-        archive.requireSame(norm(kept - asked) <= error * (1 + norm(kept)), name, shown(kept), shown(asked),
-                            unit, "a run goes on with the function of setMotion() that it had");
+        archive.requireSame(norm(kept - asked) <= error * (1 + norm(kept)), name, shownPoint(kept),
+                            shownPoint(asked), unit,
+                            "a run goes on with the function of setMotion() that it had");
     };
     const Pose asked = displacementAt(now).after(origin);
     require("pose", pose.shift, asked.shift, 1e-9, "m");

@@ -9,8 +9,6 @@
 
 namespace pendular {
 
-using Kind = WallBodySettings::Kind;
-
 namespace {
 
 constexpr Range positiveOrEndless{0, infinity, false, true};
@@ -62,7 +60,7 @@ void RigidWall::setSlider(const Vec3D& direction, const SliderSettings& settings
     checkValue("Wall", "force of the slider", settings.force, "N", anyFinite);
     checkValue("Wall", "friction of the slider", settings.friction, "N", notNegative);
     checkValue("Wall", "largest speed", settings.largestSpeed, "m/s", positiveOrEndless);
-    beginBody({.kind = Kind::Slider,
+    beginBody({.kind = WallBodySettings::Kind::Slider,
                .axis = checkedDirection("Wall", "direction of the slider", direction),
                .load = settings.force,
                .friction = settings.friction,
@@ -78,7 +76,7 @@ void RigidWall::setRotor(const Vec3D& axis, const Vec3D& point, const RotorSetti
     checkValue("Wall", "largest spin", settings.largestSpin, "rad/s", positiveOrEndless);
     const Vector<double> about = checkedDirection("Wall", "axis of the rotor", axis),
                          through = checkedVector("Wall", "point of the axis", point, "m");
-    beginBody({.kind = Kind::Rotor,
+    beginBody({.kind = WallBodySettings::Kind::Rotor,
                .axis = about,
                .load = settings.torque,
                .friction = settings.friction,
@@ -107,7 +105,7 @@ void RigidWall::beginFreeBody(double mass, const Vec3D& centre, const Eigen::Mat
             "AxisymmetricWall), or setSlider() or setRotor().");
     const PrincipalAxes principal = principalAxes(inertia);
     const Vector<double> at = toVector(centre);
-    beginBody({.kind = Kind::Free,
+    beginBody({.kind = WallBodySettings::Kind::Free,
                .inertia = mass,
                .centre = at,
                .reach = norm(at - own.centre) + own.radius,
@@ -121,7 +119,7 @@ void RigidWall::beginBody(const WallBodySettings& asked) {
     const bool goesOn = bodily && bodily->asked.movesAs(asked);
     if (!goesOn) {
         const RigidVelocity before = velocity;
-        if (asked.kind == Kind::Slider && norm(before.spin) > 0)
+        if (asked.kind == WallBodySettings::Kind::Slider && norm(before.spin) > 0)
             throw InputError("Wall: it turns, so that it cannot slide along a direction; stop it first.");
         endDrive();
         followsFunction = atRest = false;

@@ -14,7 +14,7 @@ namespace {
 constexpr double parallel = 1e-9;
 
 /// A polygon, the plane in which it lies, and the half-spaces that bound it there.
-struct Facet {
+struct PolygonFacet {
     Vector<double> normal;  // unit
     double offset;          // m
     std::vector<HalfSpace> sides;
@@ -36,9 +36,9 @@ bool isThin(const Polygon& polygon, double tolerance) {
 }
 
 /// The facet of a polygon; its sides lie farther out by the tolerance (m).
-Facet facetOf(const Polygon& polygon, double tolerance) {
+PolygonFacet facetOf(const Polygon& polygon, double tolerance) {
     const Vector<double> area = doubleArea(polygon);
-    Facet facet{(1 / norm(area)) * area, 0, {}};
+    PolygonFacet facet{(1 / norm(area)) * area, 0, {}};
     facet.offset = dot(facet.normal, polygon[0]);
     for (std::size_t k = 0; k < polygon.size(); ++k) {
         const Vector<double> outward = cross(polygon[(k + 1) % polygon.size()] - polygon[k], facet.normal);
@@ -51,7 +51,7 @@ Facet facetOf(const Polygon& polygon, double tolerance) {
 }
 
 /// Appends what a facet leaves of a polygon.
-void cutOff(const Polygon& polygon, const Facet& facet, double tolerance, std::vector<Polygon>& left) {
+void cutOff(const Polygon& polygon, const PolygonFacet& facet, double tolerance, std::vector<Polygon>& left) {
     std::vector<Polygon> outside;
     Polygon inside = polygon;
     for (const HalfSpace& side : facet.sides) {
@@ -152,7 +152,7 @@ private:
 
     const PeriodicFaces& faces;
     std::vector<const Polygon*> polygons;
-    std::vector<Facet> facets;
+    std::vector<PolygonFacet> facets;
     BoxTree tree;
     SurfaceAtFaces result;
 };

@@ -25,7 +25,7 @@ constexpr std::size_t most = 1024;   // squares along an axis
 using Corners = std::array<Vector<double>, 3>;
 
 /// m, along two axes.
-struct Extent {
+struct TriangleExtent {
     std::array<double, 2> low{infinity, infinity}, high{-infinity, -infinity};
 
     void include(const std::array<double, 2>& place) {
@@ -65,10 +65,10 @@ TriangleGrid::TriangleGrid(std::span<const std::uint32_t> triangles, std::span<c
     const Vector<double> normal = cross(plane.first, plane.second);
     axes[0] = (1 / norm(plane.first)) * plane.first;
     axes[1] = (1 / norm(normal)) * cross(normal, axes[0]);
-    Extent all;
-    std::vector<Extent> extents;  // of each of the triangles
+    TriangleExtent all;
+    std::vector<TriangleExtent> extents;  // of each of the triangles
     for (const std::uint32_t t : triangles) {
-        Extent& own = extents.emplace_back();
+        TriangleExtent& own = extents.emplace_back();
         for (const Vector<double>& corner : cornersOf(weights[t])) {
             own.include({dot(corner, axes[0]), dot(corner, axes[1])});
             all.include({dot(corner, axes[0]), dot(corner, axes[1])});

@@ -12,9 +12,7 @@
 
 namespace pendular {
 
-namespace {
-
-struct Face {
+struct TriangleFace {
     Vector<double> normal;     // unit
     double offset;             // m, normal . (a corner)
     Vector<double> middle;     // m, of its corners
@@ -22,10 +20,8 @@ struct Face {
     std::uint32_t begin, end;  // of its sides
 };
 
-}  // namespace
-
 struct TriangleMesh : FaceSurface<TriangleMesh> {
-    std::vector<Face> faces;
+    std::vector<TriangleFace> faces;
     std::vector<FaceSide> sides;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> smoothPairs;
     Box box;
@@ -35,7 +31,7 @@ struct TriangleMesh : FaceSurface<TriangleMesh> {
 
     TriangleMesh(std::span<const Triangle> given, CoplanarTriangles coplanar);
 
-    [[nodiscard]] std::span<const FaceSide> sidesOf(const Face& face) const {
+    [[nodiscard]] std::span<const FaceSide> sidesOf(const TriangleFace& face) const {
         return std::span(sides).subspan(face.begin, face.end - face.begin);
     }
     [[nodiscard]] ConvexFace faceOf(std::uint32_t part) const {
@@ -43,7 +39,7 @@ struct TriangleMesh : FaceSurface<TriangleMesh> {
     }
     /// Without a look at the sides of a face that is out of reach.
     [[nodiscard]] WallPoint pointOf(std::uint32_t part, const Vector<double>& centre, double reach) const {
-        const Face& face = faces[part];
+        const TriangleFace& face = faces[part];
         const double distance2 = squaredNorm(face.middle - centre), needed = reach + face.radius;
         if (distance2 > needed * needed) return {face.normal, std::sqrt(distance2) - face.radius, {0, 0, 0}};
         return faceOf(part).nearest(centre);
@@ -67,8 +63,8 @@ TriangleMesh::TriangleMesh(std::span<const Triangle> given, CoplanarTriangles co
             middle += (1.0 / static_cast<double>(part.corners.size())) * corner;
         double farthest2 = 0;
         for (const auto& corner : part.corners) farthest2 = std::max(farthest2, squaredNorm(corner - middle));
-        Face face{part.normal,          dot(part.normal, part.corners[0]),        middle,
-                  std::sqrt(farthest2), static_cast<std::uint32_t>(sides.size()), 0};
+        TriangleFace face{part.normal,          dot(part.normal, part.corners[0]),        middle,
+                          std::sqrt(farthest2), static_cast<std::uint32_t>(sides.size()), 0};
         Box around;
         for (std::size_t k = 0; k < part.corners.size(); ++k) {
             const Vector<double> corner = part.corners[k];
@@ -283,7 +279,7 @@ WallSurface TriangleWall::surfaceInBody(const SceneSphere&) const {
         }
         return surface;
     }
-    for (const Face& face : mesh->faces) {
+    for (const TriangleFace& face : mesh->faces) {
         Polygon& polygon = surface.polygons.emplace_back();
         for (const FaceSide& side : mesh->sidesOf(face)) polygon.push_back(side.corner);
     }

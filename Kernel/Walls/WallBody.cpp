@@ -6,11 +6,9 @@
 
 namespace pendular {
 
-using Kind = WallBodySettings::Kind;
-
 bool WallBodySettings::movesAs(const WallBodySettings& other) const {
     return kind == other.kind && axis == other.axis && centre == other.centre &&
-           (kind != Kind::Free ||
+           (kind != WallBodySettings::Kind::Free ||
             (isAsHeavyAs(other) && axes.real == other.axes.real && axes.imaginary == other.axes.imaginary));
 }
 
@@ -28,8 +26,9 @@ RigidVelocity WallBody::velocity() const {
 }
 
 Pose WallBody::poseFrom(const Pose& origin) const {
-    if (asked.kind == Kind::Rotor) return Pose::turnedAbout(asked.axis, asked.centre, way).after(origin);
-    if (asked.kind == Kind::Slider) {
+    if (asked.kind == WallBodySettings::Kind::Rotor)
+        return Pose::turnedAbout(asked.axis, asked.centre, way).after(origin);
+    if (asked.kind == WallBodySettings::Kind::Slider) {
         Pose pose = origin;
         pose.shift += way * asked.axis + carried;
         return pose;
@@ -50,21 +49,21 @@ double WallBody::kineticEnergy() const {
 }
 
 double WallBody::turningMobility() const {
-    if (asked.kind == Kind::Slider) return 0;
+    if (asked.kind == WallBodySettings::Kind::Slider) return 0;
     return 1 / (isFree() ? std::min({asked.moments.x, asked.moments.y, asked.moments.z}) : asked.inertia);
 }
 
 double WallBody::mobility() const {
-    const double ofCentre = asked.kind == Kind::Rotor ? 0 : 1 / asked.inertia;
+    const double ofCentre = asked.kind == WallBodySettings::Kind::Rotor ? 0 : 1 / asked.inertia;
     return ofCentre + asked.reach * asked.reach * turningMobility();
 }
 
 void WallBody::visitState(StateArchive& archive) {
     auto kind = static_cast<std::uint32_t>(asked.kind);
     archive.value("kind", kind);
-    archive.require(kind >= 1 && kind <= static_cast<std::uint32_t>(Kind::Free), "kind",
+    archive.require(kind >= 1 && kind <= static_cast<std::uint32_t>(WallBodySettings::Kind::Free), "kind",
                     "is none that there is");
-    asked.kind = static_cast<Kind>(kind);
+    asked.kind = static_cast<WallBodySettings::Kind>(kind);
     archive.finite("axis", asked.axis);
     archive.finite("load", asked.load);
     archive.finite("friction", asked.friction);

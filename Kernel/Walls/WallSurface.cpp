@@ -27,8 +27,6 @@ Polygon clipped(const Polygon& polygon, const HalfSpace& half, double slack) {
     return kept;
 }
 
-constexpr std::array axes{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
-
 /// Walls farther away than so many of the longest sides of the box do not widen it: a lid that was moved out
 /// of the way would make the scene small in its picture. A particle that falls from 30 times its diameter is
 /// still shown with the floor.
@@ -42,8 +40,9 @@ constexpr double farthest = 20;
 }
 
 [[nodiscard]] bool isWithin(const Vector<double>& point, const Box& box) {
-    return std::ranges::all_of(
-        axes, [&](auto axis) { return point.*axis > box.lowest.*axis && point.*axis < box.highest.*axis; });
+    return std::ranges::all_of(vectorAxes, [&](auto axis) {
+        return point.*axis > box.lowest.*axis && point.*axis < box.highest.*axis;
+    });
 }
 
 /// Sides of half-spaces that are the same but for round-off leave two corners in place of one.
@@ -104,7 +103,8 @@ private:
         if (isEmpty(given)) return;
         for (std::size_t k = 0; k < 3; ++k)
             if (held[k])
-                box.lowest.*axes[k] = given.lowest.*axes[k], box.highest.*axes[k] = given.highest.*axes[k];
+                box.lowest.*vectorAxes[k] = given.lowest.*vectorAxes[k],
+                box.highest.*vectorAxes[k] = given.highest.*vectorAxes[k];
     }
     /// The given box and the walls that have ends; where there are neither, what is nearest to the origin.
     [[nodiscard]] Box withEnds() const {
@@ -243,7 +243,7 @@ Box boxAround(const WallSurface& surface, const Vector<double>& spin) {
             radius = std::max(radius, norm(corner - middle - along * axis));
         }
     Vector<double> half{0, 0, 0};
-    for (const auto k : axes)
+    for (const auto k : vectorAxes)
         half.*k = length * std::abs(axis.*k) + radius * std::sqrt(std::max(0.0, 1 - axis.*k * axis.*k));
     return {middle - half, middle + half};
 }

@@ -108,9 +108,8 @@ TEST(LeesEdwards, searchFindsThePairsOfBruteForce) {
                                 for (int m = -1; m <= 1; ++m) {
                                     Vector<double> image = d - PeriodicBox::slid(double(n), box.imageShift);
                                     const int third = 3 - flow - gradient;
-                                    image.*LeesEdwards::axes[flow] -= l * box.length.*LeesEdwards::axes[flow];
-                                    image.*LeesEdwards::axes[third] -=
-                                        m * box.length.*LeesEdwards::axes[third];
+                                    image.*vectorAxes[flow] -= l * box.length.*vectorAxes[flow];
+                                    image.*vectorAxes[third] -= m * box.length.*vectorAxes[third];
                                     near |= norm(image) < grains[a].radius + grains[b].radius + margin;
                                 }
                         expected += near ? 1 : 0;

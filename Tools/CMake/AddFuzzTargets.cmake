@@ -19,13 +19,7 @@ if(TARGET PendularView)
     target_compile_definitions(FuzzReaders PRIVATE PENDULAR_HAS_VIEW)
 endif()
 
-# What shows libFuzzer which way an input takes, in what reads files and in what a restart file fills. The whole kernel
-# would make the tests of the same build slower. Not by -fsanitize=fuzzer-no-link, which precompiled headers do not bear.
-set(coverage -fsanitize-coverage=inline-8bit-counters,indirect-calls,trace-cmp,pc-table)
-set(readerSources ${kernelSources})
-list(FILTER readerSources INCLUDE REGEX "/Kernel/((Boundaries|Files|Insertion|Output|Particles|Shapes|Simulation|Species|State|Walls)/|CoarseGraining/FieldImage)")
-list(FILTER readerSources EXCLUDE REGEX "/BridgeChoice|/Adhesion/")
-set_property(SOURCE ${readerSources} ${sources} APPEND PROPERTY COMPILE_OPTIONS ${coverage})
+target_compile_options(FuzzReaders PRIVATE ${coverage})
 
 # Per input: 5 s, 256 MiB in one piece and 2 GiB in all. max_len: no more than a few times the largest seed.
 function(pendular_add_fuzz_run target maxLength)

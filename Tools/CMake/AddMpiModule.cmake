@@ -22,6 +22,7 @@ if(hasMpi)
     target_include_directories(PendularMpi PRIVATE "${PROJECT_SOURCE_DIR}")
     target_link_libraries(PendularMpi PRIVATE MPI::MPI_CXX fmt::fmt)
     add_warnings(PendularMpi)
+    add_dependencies(PendularCore PendularMpi)
     add_dependencies(PendularKernel PendularMpi)  # who builds one program alone can start it with mpirun
     install(TARGETS PendularMpi DESTINATION "${moduleFolder}" COMPONENT mpi OPTIONAL)  # not in the Debian package
 endif()

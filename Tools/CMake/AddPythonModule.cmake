@@ -61,6 +61,7 @@ list(REMOVE_ITEM pythonSources "${pythonFolder}/MoreSpecies.cpp")
 add_library(PendularPythonSpecies OBJECT "${pythonFolder}/MoreSpecies.cpp" ${pythonSpeciesSources})
 target_link_libraries(PendularPythonSpecies PRIVATE PendularKernel)
 add_warnings(PendularPythonSpecies)
+precompile_headers(PendularPythonSpecies PendularCore)
 
 pybind11_add_module(PendularPython MODULE NO_EXTRAS ${pythonSources} "${pythonGenerated}/Comments.cpp"
                     $<TARGET_OBJECTS:PendularPythonSpecies>)
@@ -73,10 +74,9 @@ target_compile_options(PendularPython PRIVATE $<$<CONFIG:Release>:-O1>)
 set_source_files_properties("${pythonFolder}/ShapedScene.cpp" PROPERTIES
     COMPILE_OPTIONS $<$<CONFIG:Release>:-O3> SKIP_PRECOMPILE_HEADERS ON)
 add_warnings(PendularPython)
-if(PENDULAR_PRECOMPILED_HEADERS)
-    target_precompile_headers(PendularPython PRIVATE "${pythonFolder}/Bindings.h" <fmt/format.h>)
-    set_source_files_properties("${pythonGenerated}/Comments.cpp" PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
-endif()
+precompile_headers(PendularPython PendularPython "${pythonFolder}/Bindings.h" <fmt/format.h>)
+set_source_files_properties("${pythonGenerated}/Comments.cpp" PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+compile_together(PendularPython "${pythonGenerated}/Comments.cpp")
 
 # Its types, from the module itself.
 if(NOT PENDULAR_LEVEL_OF)  # this machine may not run it

@@ -47,7 +47,7 @@ function(pendular_add_self_test folder sources)
         set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 14)
         set_source_files_properties("${selfTests}/HowDoI/FirstDriver.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     elseif(NOT folder STREQUAL Fuzz)  # its readers are one file each, and another test compiles them alone
-        set_target_properties(${name} PROPERTIES UNITY_BUILD ${PENDULAR_QUICK_TEST_BUILD} UNITY_BUILD_BATCH_SIZE 6)
+        set_target_properties(${name} PROPERTIES UNITY_BUILD ${PENDULAR_QUICK_TEST_BUILD} UNITY_BUILD_BATCH_SIZE 12)
     endif()
     # It tests that its one header is enough.
     set_source_files_properties("${selfTests}/Species/MercuryBlockTest.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
@@ -77,7 +77,7 @@ pendular_instantiate_species("${PROJECT_BINARY_DIR}/Generated/SelfTests" Species
 add_library(SpeciesOfTests STATIC ${testedSources})
 target_link_libraries(SpeciesOfTests PRIVATE Pendular::Kernel)
 add_warnings(SpeciesOfTests)
-precompile_headers(SpeciesOfTests PendularKernel)
+precompile_headers(SpeciesOfTests PendularCore)
 
 file(GLOB_RECURSE testFolders CONFIGURE_DEPENDS RELATIVE "${selfTests}" "${selfTests}/*/*Test.cpp")
 list(TRANSFORM testFolders REPLACE "/[^/]*$" "")
@@ -156,12 +156,12 @@ endif()
 string(TOUPPER "${CMAKE_BUILD_TYPE}" configuration)
 set(compilerFlags "${PROJECT_BINARY_DIR}/SelfTests/CompileFail/flags.txt")
 set(kernelProperty "$<TARGET_PROPERTY:PendularKernel,INTERFACE")
-set(kernelOptions "${kernelProperty}_COMPILE_OPTIONS>")
+set(driverOptions "${kernelProperty}_COMPILE_OPTIONS>")
 set(kernelDefinitions "${kernelProperty}_COMPILE_DEFINITIONS>")
 set(kernelIncludes "$<FILTER:${kernelProperty}_INCLUDE_DIRECTORIES>,EXCLUDE,^/usr/include$>")
 file(GENERATE OUTPUT "${compilerFlags}" CONTENT
 "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${configuration}} ${CMAKE_CXX20_STANDARD_COMPILE_OPTION}
-$<JOIN:${kernelOptions},\n>
+$<JOIN:${driverOptions},\n>
 $<$<BOOL:${kernelDefinitions}>:-D$<JOIN:${kernelDefinitions},\n-D>>
 -I\"$<JOIN:${kernelIncludes},\"\n-I\">\"
 " TARGET PendularKernel)
@@ -195,6 +195,30 @@ foreach(header IN LISTS headers)
     endif()
     set_tests_properties(Header/${header} PROPERTIES LABELS "${label};build")
 endforeach()
+
+# A driver compiles without precompiled headers, which would hide an include that it lacks.
+if(TARGET PendularDrivers)
+    foreach(source IN LISTS driverSources)
+        cmake_path(RELATIVE_PATH source BASE_DIRECTORY "${PROJECT_SOURCE_DIR}" OUTPUT_VARIABLE name)
+        add_test(NAME Alone/${name} COMMAND "${CMAKE_CXX_COMPILER}" "@${compilerFlags}" -O0 -fsyntax-only "${source}")
+        set_tests_properties(Alone/${name} PROPERTIES LABELS "long;build")
+    endforeach()
+endif()
+
+# Files that are compiled together (compile_together) compile in any grouping: as one, no name is given twice.
+function(add_one_unit_test name)
+    set(unit "${PROJECT_BINARY_DIR}/SelfTests/OneUnit/${name}.cpp")
+    set(files ${ARGN})
+    list(FILTER files EXCLUDE REGEX "/(Hdf5File|FieldFile|ProgramRanks|DescribeOptions)\\.cpp$")  # always apart
+    list(JOIN files "\"\n#include \"" included)
+    file(CONFIGURE OUTPUT "${unit}" @ONLY CONTENT "#include \"@included@\"\n")
+    add_test(NAME OneUnit/${name} COMMAND "${CMAKE_CXX_COMPILER}" "@${compilerFlags}" -O0 -fsyntax-only -Wall -Wextra "${unit}")
+    set_tests_properties(OneUnit/${name} PROPERTIES LABELS "long;build")
+endfunction()
+add_one_unit_test(Kernel ${kernelSources})
+if(TARGET PendularDrivers)
+    add_one_unit_test(DriversLibrary ${sharedSources} ${sharedCore})
+endif()
 
 add_test(NAME OutOfTree
          COMMAND "${CMAKE_COMMAND}" -D "source=${selfTests}/OutOfTree" -D "pendular=${PROJECT_BINARY_DIR}"

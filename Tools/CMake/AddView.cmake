@@ -7,7 +7,7 @@ add_library(PendularView STATIC ${viewSources})
 target_link_libraries(PendularView PUBLIC Pendular::Kernel)
 target_include_directories(PendularView SYSTEM PUBLIC "${JSON_INCLUDE_FOLDER}")
 add_warnings(PendularView)
-precompile_headers(PendularView PendularKernel)
+precompile_headers(PendularView PendularCore)
 
 if(TARGET CLI11::CLI11 AND NOT isQuickSanitizer)
     add_program(view Tools "${PROJECT_SOURCE_DIR}/Tools/View/view.cpp" "${PROJECT_SOURCE_DIR}/Tools/View/Server.cpp")

@@ -1,4 +1,4 @@
-# Whether the Python module is built (hasPython), and if not, why (whyNoPython); what it asks of all other code.
+# Whether the Python module is built (hasPython), and if not, why (whyNoPython).
 
 set(hasPython FALSE)
 set(whyNoPython "PENDULAR_PYTHON is OFF")
@@ -22,13 +22,4 @@ elseif(NOT PENDULAR_PYTHON STREQUAL OFF)
     if(PENDULAR_PYTHON STREQUAL ON AND NOT hasPython)
         message(FATAL_ERROR "PENDULAR_PYTHON is ON, but ${whyNoPython}.")
     endif()
-endif()
-
-# A module is a shared library: all code that goes into it must run at any address. One flag for all targets, so that
-# they go on sharing precompiled headers; a second library for the module alone would take as long to compile as the
-# kernel. Debian's compiler makes programs of this kind anyway (-fPIE), so it costs no time
-# (Tools/Python/README.md). -fno-semantic-interposition: no other library puts its functions in the place of ours, so
-# calls stay direct.
-if(hasPython)
-    add_compile_options(-fPIC $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
 endif()

@@ -148,7 +148,8 @@ set(PENDULAR_SPECIES_OF_TESTS
     HertzianViscoelasticMindlinLiquidMigrationBagheriSpecies)
 
 # Writes a header <type>.h, which declares the species of a list as the TypeList `type`, and in `sources` files that
-# compile some of them each.
+# compile speciesInFile of them each.
+set(speciesInFile 3)
 function(pendular_instantiate_species folder type species sources)
     cmake_path(RELATIVE_PATH folder BASE_DIRECTORY "${PROJECT_BINARY_DIR}/Generated" OUTPUT_VARIABLE include)
     set(declared "")
@@ -176,7 +177,7 @@ using @type@ = TypeList<@listed@>;
     set(written "")
     set(remaining ${species})
     while(remaining)
-        list(SUBLIST remaining 0 3 part)
+        list(SUBLIST remaining 0 ${speciesInFile} part)
         list(REMOVE_ITEM remaining ${part})
         list(LENGTH written number)
         set(compiled "")

@@ -19,7 +19,8 @@ endif()
 
 # All programs of a level have the kernel in one library beside them: forty programs with a kernel each would take 140 MB.
 function(share_kernel_of_programs)
-    add_library(PendularPrograms SHARED $<TARGET_OBJECTS:PendularKernel> $<TARGET_OBJECTS:PendularDrivers>)
+    add_library(PendularPrograms SHARED ${kernelObjects} $<TARGET_OBJECTS:PendularKernel> $<TARGET_OBJECTS:PendularCommandLine>
+                $<TARGET_OBJECTS:PendularDrivers>)
     target_link_libraries(PendularPrograms PRIVATE PendularDrivers)
     install(TARGETS PendularPrograms LIBRARY DESTINATION "${programFolder}" COMPONENT programs OPTIONAL EXCLUDE_FROM_ALL)
 endfunction()
@@ -37,7 +38,7 @@ function(add_further_levels)
             -DPENDULAR_BUILD_TESTS=OFF -DPENDULAR_MPI=OFF)
         foreach(option CMAKE_BUILD_TYPE CMAKE_CXX_COMPILER CMAKE_CXX_COMPILER_LAUNCHER CMAKE_CXX_FLAGS Python_EXECUTABLE
                 PENDULAR_PYTHON PENDULAR_PYTHON_SPECIES PENDULAR_PYTHON_SHAPED_SPECIES PENDULAR_VIEW
-                PENDULAR_PRECOMPILED_HEADERS PENDULAR_WARNINGS_AS_ERRORS)
+                PENDULAR_PRECOMPILED_HEADERS PENDULAR_FILES_AT_A_TIME PENDULAR_WARNINGS_AS_ERRORS)
             if(DEFINED ${option})
                 string(REPLACE ";" "$<SEMICOLON>" value "${${option}}")
                 list(APPEND options "-D${option}=${value}")

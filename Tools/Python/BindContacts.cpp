@@ -87,7 +87,7 @@ ContactColumnReference& columnNamed(PythonScene& scene, const std::string& name)
     unknownName("column of contacts", name, names);
 }
 
-void setColumn(PythonScene& scene, const std::string& name, const ArrayLike& values) {
+void setContactColumn(PythonScene& scene, const std::string& name, const ArrayLike& values) {
     ContactColumnReference& column = columnNamed(scene, name);
     scene.requireRows("set_contact_column()");
     const std::vector<ObservedContact> seen = scene.scene().ownInteractions();
@@ -136,7 +136,7 @@ void bindContacts(SceneClass& scene) {
             },
             py::arg("name"), py::arg("unit") = "", py::arg("initial") = 0.0,
             comment("Scene::addContactColumn", "name, unit: words; initial: its first value."))
-        .def("set_contact_column", &setColumn, py::arg("name"), py::arg("values"),
+        .def("set_contact_column", &setContactColumn, py::arg("name"), py::arg("values"),
              "Sets what add_contact_column() keeps under this name. values: one number, or one for each row "
              "of contacts(), which has it as NAME_UNIT.");
 }

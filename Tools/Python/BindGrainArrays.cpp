@@ -213,7 +213,7 @@ GrainColumn& columnNamed(ParticleStore& grains, const std::string& name) {
     unknownName("column of grains", name, names);
 }
 
-void setColumn(PythonScene& scene, const std::string& name, const ArrayLike& rows) {
+void setGrainColumn(PythonScene& scene, const std::string& name, const ArrayLike& rows) {
     scene.requireRows("set_column()");
     ParticleStore& grains = scene.scene().particleHandler.store();
     GrainColumn& column = columnNamed(grains, name);
@@ -287,7 +287,7 @@ void bindGrainArrays(SceneClass& scene) {
                     s, [&](const auto&, auto place, double* to) { *to = column.values[place]; });
             },
             py::arg("name"), "N: a copy of what add_column() keeps under this name.")
-        .def("set_column", &setColumn, py::arg("name"), py::arg("values"),
+        .def("set_column", &setGrainColumn, py::arg("name"), py::arg("values"),
              "Sets what add_column() keeps under this name. values: one number, or one for each grain.")
         .def(
             "hash",

@@ -35,9 +35,9 @@ HeldAxes heldAxesNamed(const std::string& axes) {
 
 namespace {
 
-py::array add(PythonScene& scene, const SpeciesHandle& species, const ArrayLike& position,
-              const ArrayLike& radius, const ArrayLike& velocity, const ArrayLike& spin,
-              const ArrayLike& film, bool fixed, const std::string& held) {
+py::array addGrains(PythonScene& scene, const SpeciesHandle& species, const ArrayLike& position,
+                    const ArrayLike& radius, const ArrayLike& velocity, const ArrayLike& spin,
+                    const ArrayLike& film, bool fixed, const std::string& held) {
     scene.requireNoViews();
     if (fixed && !held.empty())
         throw InputError(
@@ -98,9 +98,10 @@ void addFromFile(PythonScene& scene, const std::vector<SpeciesHandle>& types,
 
 void bindGrains(SceneClass& scene) {
     scene
-        .def("add_grains", &add, py::arg("species"), py::arg("position"), py::arg("radius"), py::kw_only(),
-             py::arg("velocity") = py::make_tuple(0, 0, 0), py::arg("spin") = py::make_tuple(0, 0, 0),
-             py::arg("film") = 0.0, py::arg("fixed") = false, py::arg("held") = "",
+        .def("add_grains", &addGrains, py::arg("species"), py::arg("position"), py::arg("radius"),
+             py::kw_only(), py::arg("velocity") = py::make_tuple(0, 0, 0),
+             py::arg("spin") = py::make_tuple(0, 0, 0), py::arg("film") = 0.0, py::arg("fixed") = false,
+             py::arg("held") = "",
              "Adds grains, at set-up or between steps; returns their identities.\n\n"
              "species: their material. position: N x 3, m. radius: m, one or N. velocity (m/s), spin "
              "(rad/s): three numbers, or N x 3. film: m^3 of liquid, one or N, where liquid moves. fixed: "

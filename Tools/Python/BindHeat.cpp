@@ -34,7 +34,7 @@ int numberOf(const PythonScene& scene, const WallHandle& wall) {
     return static_cast<int>(wall.number);
 }
 
-py::dict ledger(const PythonScene& scene) {
+py::dict heatLedger(const PythonScene& scene) {
     const HeatPart& part = heatOf(scene);
     const HeatLedger& heat = part.ledger();
     py::dict made, ofWalls;
@@ -84,7 +84,7 @@ void bindHeat(SceneClass& scene) {
         .def(
             "heat_by_contacts", [](PythonScene& s, bool heats) { heatOf(s).heatByContacts(heats); },
             py::arg("heats") = true, comment("HeatPart::heatByContacts", "heats: or no more."))
-        .def("heat", &ledger,
+        .def("heat", &heatLedger,
              "The heat of the scene, J: stored_J, of all grains; from_walls_J, of held temperatures, the sum "
              "of from_each_wall_J, a dict by the numbers of the walls, positive into the grains; "
              "from_contacts_J, what contacts have lost, as far as it went into grains; to_walls_J, what of "

@@ -61,7 +61,7 @@ void setEvaporation(PythonScene& scene, std::optional<double> flux, std::optiona
     scene.scene().setEvaporation(law);
 }
 
-py::dict ledger(const PythonScene& scene) {
+py::dict liquidLedger(const PythonScene& scene) {
     const LiquidLedger ledger = scene.scene().liquidLedger();
     py::dict made;
     made["films_m3"] = ledger.films, made["bridges_m3"] = ledger.bridges, made["walls_m3"] = ledger.walls;
@@ -110,7 +110,7 @@ void bindLiquid(SceneClass& scene) {
         .def(
             "set_liquid_density", [](PythonScene& s, double density) { s.scene().setLiquidDensity(density); },
             py::arg("density"), comment("Scene::setLiquidDensity"))
-        .def("liquid", &ledger, comment("LiquidLedger"))
+        .def("liquid", &liquidLedger, comment("LiquidLedger"))
         .def(
             "droplets_of",
             [](const PythonScene& s, std::size_t spray) { return s.scene().sprayHandler.countOf(spray); },

@@ -56,7 +56,7 @@ py::dict insert(PythonScene& scene, const SpeciesHandle& species, const SizeDist
                          tries);
 }
 
-std::string_view nameOf(const AnyRegion& region) {
+std::string_view nameOfRegion(const AnyRegion& region) {
     return std::array{"box", "cylinder", "sphere", "inside of a mesh", "between walls"}[region.of.index()];
 }
 
@@ -89,7 +89,9 @@ void bindRegions(py::module_& module, SceneClass& scene) {
     bindMixture(module);
     py::class_<AnyRegion> region(module, "Region", "A part of space: where grains come, or where they go.");
     refuseCopies(region, anew);
-    region.def("__repr__", [](const AnyRegion& r) { return fmt::format("<pendular.Region: {}>", nameOf(r)); })
+    region
+        .def("__repr__",
+             [](const AnyRegion& r) { return fmt::format("<pendular.Region: {}>", nameOfRegion(r)); })
         .def_property_readonly(
             "volume", [](const AnyRegion& r) { return r.region().volume(); }, "m^3")
         .def(

@@ -63,7 +63,7 @@ std::vector<double> takenBy(const NamedSetter& setter, const Values& values) {
 }
 
 /// As users give a value of a setter.
-std::string nameOf(const NamedSetter& setter, const SetterValue& value) {
+std::string nameOfSetter(const NamedSetter& setter, const SetterValue& value) {
     if (setter.values.size() == 1) return snakeCase(setter.name);
     if (value.name == "elasticModulus") return "young_modulus";
     return value.name == "restitution" ? "restitution_coefficient" : snakeCase(value.name);
@@ -77,7 +77,7 @@ std::string togetherWith(AnyLaws& laws, const std::string& name) {
         std::vector<std::string> names;
         bool isIts = false;
         for (const SetterValue& value : setter.values) {
-            names.push_back(nameOf(setter, value));
+            names.push_back(nameOfSetter(setter, value));
             isIts = isIts || names.back() == name || snakeCase(value.name) == name;
         }
         if (names.size() == 1 || !isIts) continue;
@@ -95,7 +95,7 @@ std::string togetherWith(AnyLaws& laws, const std::string& name) {
         throw InputError(fmt::format("{}: {} are given together.", laws.getName(), names));
     std::set<std::string> known;
     for (const NamedSetter& setter : laws.setters())
-        for (const SetterValue& value : setter.values) known.insert(nameOf(setter, value));
+        for (const SetterValue& value : setter.values) known.insert(nameOfSetter(setter, value));
     const std::vector<std::string_view> names(known.begin(), known.end());
     unknownName(fmt::format("field of {}", laws.getName()), snakeCase(name), names);
 }
@@ -199,7 +199,7 @@ py::list describe(AnyLaws& laws) {
     std::set<std::string> listed;
     for (const NamedSetter& setter : laws.setters())
         for (const SetterValue& value : setter.values) {
-            const std::string name = nameOf(setter, value);
+            const std::string name = nameOfSetter(setter, value);
             if (!listed.insert(name).second) continue;
             rows.append(py::make_tuple(std::string(setter.law), name, std::string(value.unit),
                                        value.range.text(value.unit),
@@ -216,7 +216,7 @@ std::vector<std::string> knownSpecies() {
     return names;
 }
 
-SpeciesHandle add(PythonScene& scene, const std::string& type, const py::kwargs& given) {
+SpeciesHandle addSpecies(PythonScene& scene, const std::string& type, const py::kwargs& given) {
     const Values values = valuesOf(given);
     if (type.find_first_of(" ./") != std::string::npos)
         throw InputError(fmt::format("'{}' is no name of a species; pendular.species() lists them.", type));
@@ -276,7 +276,7 @@ void bindSpecies(py::module_& module, SceneClass& scene) {
                 return all;
             },
             "The materials, in the order of their indices, which grain_species has.")
-        .def("add_species", &add, py::arg("type"),
+        .def("add_species", &addSpecies, py::arg("type"),
              "Adds a material by the name of its laws (pendular.species() lists them), with its fields: "
              "density (kg/m^3), those of pendular.fields(type), or young_modulus (Pa) and poisson_ratio, "
              "restitution_coefficient, and others that fields are computed from. Raises InputError.")

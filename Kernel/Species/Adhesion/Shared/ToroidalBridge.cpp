@@ -13,10 +13,10 @@ namespace {
 
 using std::numbers::pi;
 
-double square(double x) { return x * x; }
+double squareOf(double x) { return x * x; }
 
 /// 1 - cos(angle), also for small angles.
-double versine(double angle) { return 2 * square(std::sin(0.5 * angle)); }
+double versine(double angle) { return 2 * squareOf(std::sin(0.5 * angle)); }
 
 }  // namespace
 
@@ -32,12 +32,12 @@ double Toroid::neck() const {
 
 double Toroid::volume() const {
     const double psi = fillingAngle + contactAngle, l = neck(), half = 0.5 * height();
-    const double caps = 2 * pi * (2 + std::cos(fillingAngle)) * square(versine(fillingAngle)) / 3;
+    const double caps = 2 * pi * (2 + std::cos(fillingAngle)) * squareOf(versine(fillingAngle)) / 3;
     if (std::abs(std::cos(psi)) > 0.3) {
         const double rho = 1 / curvature(), b = rho + l, c = std::cos(psi);
         return 2 * pi *
-                   (half * (square(rho) + square(b)) - half * square(rho * c) / 3 -
-                    b * square(rho) * (c * std::sin(psi) + 0.5 * pi - psi)) -
+                   (half * (squareOf(rho) + squareOf(b)) - half * squareOf(rho * c) / 3 -
+                    b * squareOf(rho) * (c * std::sin(psi) + 0.5 * pi - psi)) -
                caps;
     }
     // Near the cylinder the closed form cancels: y = l + k x^2 / (1 + sqrt(1 - k^2 x^2)), squared and
@@ -45,7 +45,7 @@ double Toroid::volume() const {
     double sum = 0;
     for (const auto [position, weight] : gaussLegendre(12)) {
         const double kx = curvature() * half * position;
-        sum += weight * square(l + kx * half * position / (1 + std::sqrt(1 - square(kx))));
+        sum += weight * squareOf(l + kx * half * position / (1 + std::sqrt(1 - squareOf(kx))));
     }
     return pi * half * sum - caps;
 }

@@ -12,10 +12,10 @@ namespace {
 using std::numbers::pi;
 
 /// The part of a body in the toroid.
-struct Contact {
+struct ToroidContact {
     double capHeight, capVolume, psi, sine, cosine;
 
-    Contact(double radius, double curvature, double contactAngle) {
+    ToroidContact(double radius, double curvature, double contactAngle) {
         const double sineOfFilling = radius * curvature;
         capHeight = radius * sineOfFilling / (1 + std::sqrt(1 - sineOfFilling * sineOfFilling));
         capVolume = pi * capHeight * (3 * radius * radius + capHeight * capHeight) / 6;
@@ -26,7 +26,7 @@ struct Contact {
 };
 
 struct Contacts {
-    Contact first, second;
+    ToroidContact first, second;
 
     explicit Contacts(const UnequalToroid& t)
         : first(t.contactRadius[0], t.curvature[0], t.contactAngle),
