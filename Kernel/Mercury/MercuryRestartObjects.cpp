@@ -292,7 +292,12 @@ void MercuryRestartObjects::addInteraction(const MercuryRestartLines& lines) {
     const auto placeOf = [&](const Places& places, std::size_t at) {
         const double id = lines.numberAt(at);
         const auto found = id >= 0 && id < 1e18 ? places.find(static_cast<std::uint64_t>(id)) : places.end();
-        const std::string_view kind = &places == &placesOfWalls ? "wall" : "particle";
+        const bool isOfWalls = &places == &placesOfWalls;
+        const std::string_view kind = isOfWalls ? "wall" : "particle";
+        // In files whose walls have no ids of their own (all have 0) contacts give the places of walls.
+        if (isOfWalls && places.size() < state->walls.size() && id >= 0 &&
+            id < static_cast<double>(state->walls.size()))
+            return static_cast<std::size_t>(id);
         if (found == places.end()) lines.refuse(fmt::format("there is no {} with the id {}", kind, id));
         if (found->second == several)
             lines.refuse(fmt::format("there is more than one {} with the id {}", kind, id));

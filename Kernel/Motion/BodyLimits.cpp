@@ -42,6 +42,13 @@ std::size_t countOf(const std::vector<BodiesAlike>& bodies) {
     return count;
 }
 
+/// Whether bodies touch others: not one that is alone, but it is taken among its equals where there is
+/// nothing else that it could touch.
+bool touchBodies(const GrainSizes& grains, const GrainSizes& others, const WallHandler& walls) {
+    return countOf(grains.bodies) > 1 ||
+           (walls.present().empty() && std::ranges::all_of(others.all, &SizeRange::empty));
+}
+
 /// From how many sides, up to six, plane walls may touch a body.
 double sidesOfPlanes(const WallHandler& walls) {
     double sides = 0;
@@ -62,7 +69,7 @@ std::vector<TouchingBody> partners(const ContactLaws& species, const GrainSizes&
         for (const double radius : {sizes.smallest, sizes.largest})
             found.push_back({.species = s, .radius = radius, .mass = heaviest});
     }
-    for (std::size_t s = 0; s < grains.all.size() && countOf(grains.bodies) > 1; ++s)
+    for (std::size_t s = 0; s < grains.all.size() && touchBodies(grains, others, walls); ++s)
         for (const bool blocks : {false, true}) {
             TouchingBody smallest{.species = s, .radius = infinity, .mass = 0},
                 largest{.species = s, .radius = 0, .mass = 0};
@@ -272,7 +279,8 @@ BodyLoad loadOfBodies(const ContactLaws& species, const GrainSizes& grains, cons
         ofSpheres = largest(ofSpheres, loads.ofSphere({stiffness, bodies, mass}, own, 1));
     });
     // One that is alone touches only what does not move.
-    const bool isOnly = countOf(grains.bodies) == 1 && std::ranges::all_of(alone.free, &SizeRange::empty);
+    const bool isOnly =
+        !touchBodies(grains, alone, walls) && std::ranges::all_of(alone.free, &SizeRange::empty);
     BodyLoad both = isOnly ? BodyLoad{} : largest(ofBodies, ofSpheres);
     both.all = both.all + ofBodies.all, both.spin = both.spin + ofBodies.spin;
     both.relaxation = std::min(both.relaxation, ofBodies.relaxation);

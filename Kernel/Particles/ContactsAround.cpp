@@ -180,7 +180,8 @@ public:
         }
         found.boxNormal = 2 * found.wallNormal, found.boxSliding = 2 * found.wallSliding;
         found.boxSpin = 2 * found.wallSpin;
-        for (const Vector<double>& direction : {ofNormal, ofSliding, ofSpin}) addBoxes(direction, found);
+        for (const Vector<double>& direction : {ofNormal, ofSliding, ofSpin})
+            addBoxes(direction, frame, found);
     }
 
 private:
@@ -201,9 +202,10 @@ private:
                 sums.add(toEigen(sphere.arm + sphere.radius * plane.normal), toEigen(plane.normal), 1, 1);
     }
     /// Of six planes, two of them across a direction: others turn a cube about an axis along them as these
-    /// do.
-    void addBoxes(const Vector<double>& direction, ContactsAround& found) const {
-        const Eigen::Vector3d across = toEigen(direction), side = across.unitOrthogonal();
+    /// do. In the frame of the shape the planes are the same for all bodies of it.
+    void addBoxes(const Vector<double>& direction, const Quaternion& frame, ContactsAround& found) const {
+        const Vector<double> ofShape = toVector(toEigen(frame.turn(direction)).unitOrthogonal());
+        const Eigen::Vector3d across = toEigen(direction), side = toEigen(frame.turnBack(ofShape));
         constexpr int turns = 8;  // of the quarter that a box looks the same after
         for (int k = 0; k < turns; ++k) {
             const Eigen::AngleAxisd turn(0.5 * std::numbers::pi * k / turns, across);

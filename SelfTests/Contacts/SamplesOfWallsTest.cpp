@@ -11,7 +11,7 @@
 namespace pendular::samplesOfWallsTest {
 namespace {
 
-using S = Species<LinearViscoelastic>;
+using S = Species<LinearViscoelastic, SlidingFriction>;
 
 /// A cubic lattice of 1000 grains that overlap by 2 % of a radius, on a plate.
 struct Lattice : scenes::FewGrains<S> {
@@ -39,6 +39,7 @@ private:
     static S material() {
         S species;
         species.setDensity(2500), species.setStiffness(1e3), species.setDissipation(0.01);
+        species.setSlidingStiffness(300), species.setSlidingFrictionCoefficient(0.4);
         return species;
     }
     static std::vector<scenes::GrainMotion> grains() {

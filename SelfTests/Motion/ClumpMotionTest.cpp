@@ -593,8 +593,16 @@ TEST(ClumpMotion, theLimitKnowsHowManySpheresOfAHeldBodyOneTouches) {
     }
     FewGrains<Smooth> scene(elastic(stiffness), grains, 1e-7);
     scene.setIntegrator(integrators::velocityVerlet);
-    scene.bodyHandler.join(below).fixBody();
-    const BodyReference rod = scene.bodyHandler.join(above);
+    // A capsule, nearly: overlapping spheres count once.
+    constexpr double length = spacing * (count - 1);  // m
+    const double mass = density * std::numbers::pi * r * r * (length + 4 * r / 3),
+                 across = mass * (0.4 * r * r + length * length / 12);
+    const Eigen::Matrix3d inertia = Eigen::Vector3d(0.4 * mass * r * r, across, across).asDiagonal();
+    const auto join = [&](const std::vector<std::uint32_t>& spheres, double height) {
+        return scene.bodyHandler.join(spheres, BodyMass{mass, {0.5 * length, 0, height}, inertia});
+    };
+    join(below, 0).fixBody();
+    const BodyReference rod = join(above, apart);
     double share = 0;  // of k, along the line between the rods
     for (const std::uint32_t a : below)
         for (const std::uint32_t b : above) {

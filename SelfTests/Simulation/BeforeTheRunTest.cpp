@@ -28,6 +28,7 @@
 #include "Kernel/Output/Hdf5Output.h"
 #include "Kernel/Output/MercuryOutput.h"
 #include "Kernel/Output/ParaViewOutput.h"
+#include "Kernel/Output/SceneBox.h"
 #include "Kernel/Output/SceneFields.h"
 #include "Kernel/Output/TimedTable.h"
 #include "Kernel/Output/WallForceFile.h"
@@ -205,6 +206,12 @@ std::vector<std::pair<std::string, std::vector<std::pair<std::string, Call>>>> c
           {"HDF5", whole(plain<Hdf5Output>)},
           {"HDF5 alone", [](Scene& scene) { Hdf5Output().write(scene); }},
           {"visitState", kept(plain<ParaViewOutput>)}}},
+        {"Output/SceneBox.h",
+         {{"take",
+           [](Scene& scene) {
+               SceneBox box;
+               box.take(scene);
+           }}}},
         {"Output/SceneFields.h",
          {{"of",
            [](Scene& scene) {

@@ -223,6 +223,7 @@ TEST(LikelySlips, densitiesOfDiscsAreByArea) {
     grain.setRadius(1e-3);
     scene.particleHandler.copyAndAddObject(grain);
     scene.particleHandler.holdAll(HeldAxes::inPlane());
+    scene.setIntegrator(integrators::velocityVerlet);
     scene.setTimeStep(1e-7);
     testing::internal::CaptureStderr();
     EXPECT_EQ(support::refusal([&] { scene.initialise(); }), "");
