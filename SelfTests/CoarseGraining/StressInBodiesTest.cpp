@@ -168,7 +168,7 @@ struct BedOfRods : FewGrains<Rough> {
 TEST(HeavyStressInABed, isTheWeightOfTheRodsAbove) {
     BedOfRods scene;
     scene.initialise();
-    while (scene.getTime() < 0.4) scene.step();
+    while (scene.getTime() < 0.8) scene.step();
     const auto weightOf = [](const BodyReference& body) { return body.getMass() * BedOfRods::g; };
     const auto carriedOf = [&](const BodyReference& body) { return weightOf(body) + body.getForce().z(); };
     double top = 0, total = 0;  // m, N

@@ -321,9 +321,11 @@ TEST(ClumpInlet, isKnownToTheStabilityLimit) {
     // Twelve more grains of the size: as many as there may be around one.
     std::vector<SphericalParticle> more(13, now.grain());
     for (SphericalParticle& grain : more) grain.setRadius(clump.getSpheres()[0].getRadius());
-    // The sums over its contacts are larger by 2/1024, and rounded upwards by 1/512 at most; so is the mean of
-    // the spheres that one touches, of which three times the part above 1 counts.
-    EXPECT_NEAR(most / now.stabilityLimit(more), 1, 1 / 1024.0 + 0.5 * 4 / 512.0);
+    // Each number of the shape is larger by 2/1024, and rounded upwards by 1/512 at most. The squared
+    // frequency is a product of three: of the contacts, of the spheres that one touches, whose mean counts
+    // three times, and of the room for others.
+    constexpr double digit = 2 / 1024.0 + 1 / 512.0;
+    EXPECT_NEAR(most / now.stabilityLimit(more), 1, 0.5 * (1 + 3 + 1) * digit);
     EXPECT_LE(most, now.stabilityLimit(more));
     EXPECT_LT(most, none.stabilityLimit(more));
 }
