@@ -175,3 +175,21 @@ except KeyboardInterrupt:
     assert done.returncode == 0, done.stderr
     took, grains = done.stdout.split()
     assert float(took) < 0.5 and int(grains) == 4000
+
+
+class Interrupts:
+    """Ctrl-C comes while numpy looks at it."""
+    def __array__(self, *types, **options):
+        raise KeyboardInterrupt
+
+
+@pytest.mark.parametrize("call", [lambda scene, sand, it: setattr(scene, "gravity", it),
+                                  lambda scene, sand, it: scene.add_grains(sand, it, 1e-4),
+                                  lambda scene, sand, it: scene.add_grains(sand, [[0, 0, 0]], it),
+                                  lambda scene, sand, it: scene.add_plane(sand, it, (0, 0, 0))])
+def test_ctrl_c_while_an_argument_is_read(call):
+    """It was lost, and the argument got the blame: "A vector must be three numbers; it is (0.1, 0.1, 0.1)"."""
+    scene = pendular.Scene()
+    sand = scene.add_species("LinearViscoelastic", density=2500, stiffness=300)
+    with pytest.raises(KeyboardInterrupt):
+        call(scene, sand, Interrupts())

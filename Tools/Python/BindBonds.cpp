@@ -24,9 +24,8 @@ using Stiffness = std::function<BondStiffness(const BondSection&, double)>;
 Stiffness stiffnessBy(PythonScene& scene, py::function function) {
     return [kept = scene.keep(std::move(function)), &scene](const BondSection&, double length) {
         return scene.ask([&] {
-            const Doubles k = Doubles::ensure((*kept)(length));
+            const Doubles k = arrayOrNone<Doubles>((*kept)(length));
             if (!k || k.size() != 4) {
-                PyErr_Clear();
                 throw InputError(
                     "The function stiffness of a bond material must return four numbers: normal, shear "
                     "(N/m), bending and twist (N m/rad).");

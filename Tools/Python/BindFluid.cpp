@@ -83,10 +83,11 @@ private:
         const py::object shape = py::cast(handle().shape({3}));
         Doubles rows;
         try {
-            rows = Doubles::ensure(py::module_::import("numpy").attr("broadcast_to")(answer, shape));
-        } catch (const py::error_already_set&) {}
+            rows = arrayOrNone<Doubles>(py::module_::import("numpy").attr("broadcast_to")(answer, shape));
+        } catch (const py::error_already_set& error) {
+            if (!error.matches(PyExc_Exception)) throw;
+        }
         if (!rows || rows.size() != static_cast<py::ssize_t>(3 * field.size())) {
-            PyErr_Clear();
             throw InputError(name +
                              "(): the host must return three numbers for each cell, as an array of the "
                              "shape (nz, ny, nx, 3), or three for all of them.");

@@ -38,10 +38,9 @@ public:
 private:
     std::vector<double> ofAll() {
         return scene.askForOwnRows([&] {
-            const Doubles made = Doubles::ensure((*make)(scene.object()));
+            const Doubles made = arrayOrNone<Doubles>((*make)(scene.object()));
             const auto count = static_cast<py::ssize_t>(scene.scene().particleHandler.store().count());
             if (!made || made.ndim() != (width == 1 ? 1 : 2) || made.size() != count * width) {
-                PyErr_Clear();
                 throw InputError(
                     fmt::format("The function of the field {} must return {} for each of {} grains.", name,
                                 width == 3 ? "three numbers" : "a number", count));

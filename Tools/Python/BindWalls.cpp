@@ -22,9 +22,8 @@ void WallHandle::refuse(std::string_view what, bool isRemoved) const {
 std::vector<Triangle> trianglesOf(const py::object& mesh, double scale) {
     if (py::isinstance<py::str>(mesh) || py::hasattr(mesh, "__fspath__"))
         return readTriangles(mesh.cast<std::filesystem::path>(), scale);
-    const Doubles corners = Doubles::ensure(mesh);
+    const Doubles corners = arrayOrNone<Doubles>(mesh);
     if (!corners || corners.ndim() != 3 || corners.shape(1) != 3 || corners.shape(2) != 3) {
-        PyErr_Clear();
         throw InputError(
             "A mesh is the name of a file, or an array of triangles: N x 3 corners x 3 numbers.");
     }
@@ -112,9 +111,8 @@ double liquidOf(const WallHandle& handle) {
 }
 
 Eigen::Isometry3d poseOf(const py::object& answer) {
-    const Doubles numbers = Doubles::ensure(answer);
+    const Doubles numbers = arrayOrNone<Doubles>(answer);
     if (!numbers || (numbers.size() != 3 && numbers.size() != 16)) {
-        PyErr_Clear();
         throw InputError(
             "The function of set_motion() must return a shift (three numbers, m), or a matrix 4 x 4.");
     }

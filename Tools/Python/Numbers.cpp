@@ -33,22 +33,17 @@ template <class Array>
 Array converted(const py::array& any, std::string_view name, std::string_view what) {
     using Number = typename Array::value_type;
     using Converted = py::array_t<Number, py::array::c_style | py::array::forcecast>;
-    auto made = Converted::ensure(any);
-    if (!made) {
-        PyErr_Clear();
-        refuseGiven(any, name, what);
-    }
-    return Array::ensure(made);
+    auto made = arrayOrNone<Converted>(any);
+    if (!made) refuseGiven(any, name, what);
+    return arrayOrNone<Array>(made);
 }
 
 template <class Array>
 Array numbersOf(py::handle given, std::string_view name, std::string_view what) {
     // numpy would read text as numbers, and take the real part of complex ones.
-    const py::array any = py::array::ensure(given);
-    if (!any || std::string_view("bifu").find(any.dtype().kind()) == std::string_view::npos) {
-        PyErr_Clear();
+    const py::array any = arrayOrNone<py::array>(given);
+    if (!any || std::string_view("bifu").find(any.dtype().kind()) == std::string_view::npos)
         refuseGiven(given, name, what);
-    }
     return converted<Array>(any, name, what);
 }
 
@@ -105,12 +100,10 @@ Doubles rowsOf(const ArrayLike& given, std::string_view name, py::ssize_t width)
 }
 
 std::vector<std::uint32_t> identitiesOf(const ArrayLike& given, std::string_view name) {
-    const py::array any = py::array::ensure(given.given);
+    const py::array any = arrayOrNone<py::array>(given.given);
     if (!any || any.ndim() > 1 ||
-        (any.size() > 0 && std::string_view("iu").find(any.dtype().kind()) == std::string_view::npos)) {
-        PyErr_Clear();
+        (any.size() > 0 && std::string_view("iu").find(any.dtype().kind()) == std::string_view::npos))
         refuseGiven(given.given, name, "whole numbers");
-    }
     // A number that 64 bits with a sign do not hold becomes negative, which is refused below.
     const Integers numbers = converted<Integers>(any, name, "whole numbers");
     std::vector<std::uint32_t> made;

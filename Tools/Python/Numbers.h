@@ -34,6 +34,18 @@ struct Given {
     py::object object;
 };
 
+/// What numpy makes of it, or a null object where it makes nothing. What ends a program, as Ctrl-C, is thrown
+/// on: array::ensure() of pybind11 forgets it, and the argument would get the blame.
+template <class Array>
+Array arrayOrNone(py::handle given) {
+    try {
+        return Array(py::reinterpret_borrow<py::object>(given));
+    } catch (const py::error_already_set& error) {
+        if (!error.matches(PyExc_Exception)) throw;
+        return py::reinterpret_steal<Array>(py::handle());
+    }
+}
+
 /// What InputError says of an argument or an answer that is something else. @param what "a number"
 [[noreturn]] void refuseGiven(py::handle given, std::string_view name, std::string_view what);
 /// Throws InputError, with that, where it is none.

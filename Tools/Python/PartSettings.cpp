@@ -36,9 +36,8 @@ PartSettings::PartSettings(const py::object& given, const std::string& who) {
         const bool areNumbers = isUsable && isNumbers(value);
         if (!areNumbers && !areGiven) continue;  // an object, a function, its state
         const Doubles column =
-            areNumbers ? Doubles::ensure(py::reinterpret_borrow<py::object>(value)) : Doubles();
+            areNumbers ? arrayOrNone<Doubles>(py::reinterpret_borrow<py::object>(value)) : Doubles();
         if (!areNumbers || !column) {
-            PyErr_Clear();
             throw InputError(
                 fmt::format("{}: settings['{}'] must be a number, an array of numbers or a text, "
                             "and its name must have a letter, and no /.",

@@ -396,10 +396,10 @@ void PythonScene::visitRemembered(StateArchive& archive) {
 /// What was read, as the type of what is there: a number, or an array of whole numbers.
 static py::object alike(const py::handle there, const Doubles& shape, std::vector<double>&& read,
                         const std::string& name) {
-    const py::object type = py::array::ensure(there).dtype();
+    const py::object type = arrayOrNone<py::array>(there).dtype();
     if (shape.ndim() == 0) {
         const py::object number = py::array(arrayOf(std::move(read))).attr("astype")(type).attr("item")(0);
-        return py::isinstance<py::array>(there) ? py::object(py::array::ensure(number)) : number;
+        return py::isinstance<py::array>(there) ? py::object(arrayOrNone<py::array>(number)) : number;
     }
     const auto count = static_cast<py::ssize_t>(read.size());
     const py::object numbers = py::array(arrayOf(std::move(read))).attr("astype")(type);
@@ -419,9 +419,8 @@ void visitNumbers(StateArchive& archive, py::dict kept, const std::string& whole
         const std::string name = py::str(key);
         if (name.empty() || name.find('/') != std::string::npos || name == list)
             throw InputError(fmt::format("{}['{}']: a name must have a letter, and no /.", whole, name));
-        Doubles numbers = Doubles::ensure(value);
+        Doubles numbers = arrayOrNone<Doubles>(value);
         if (!numbers) {
-            PyErr_Clear();
             throw InputError(fmt::format("{}['{}'] must be a number or an array of numbers.", whole, name));
         }
         arrays.emplace(name, std::move(numbers));
