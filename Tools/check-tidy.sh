@@ -63,6 +63,9 @@ cmake -G Ninja -S "$folder" -B "$build" -D CMAKE_CXX_COMPILER=clang++ -D CMAKE_B
 sed -n 's/^ *"command": ".*clang++ \(.*\) -o .*Kernel\/State\/Hdf5File.cpp",$/\1/p' "$build/compile_commands.json" >"$build/flags"
 mpi=$(grep '"command".*MpiRanks.cpp' "$build/compile_commands.json" || true)
 grep -o -e '-isystem [^ ]*' <<<"$mpi" >>"$build/flags" || true
+# The places of the module of MPI, which one file is given; as a shell reads them.
+grep '"command".*ProgramRanks.cpp' "$build/compile_commands.json" | grep -o -e '-DPENDULAR_[A-Z_]*MODULE=[^ ]*' |
+    sed 's/\\\\/\\/g; s/\\"/"/g' >>"$build/flags" || true
 if [[ -z $mpi ]]; then files=$(grep -v MpiRanks.cpp <<<"$files") || exit 0; fi
 awk -F/ '{ name = $0; sub("/[^/]*$", "", name); row[name] = row[name] " " $0 } END { for (name in row) print row[name] }' <<<"$files" |
     xargs -P "$(getconf _NPROCESSORS_ONLN)" -L 1 "$folder/Tools/check-tidy.sh" --group

@@ -225,7 +225,7 @@ bool freeOfSeparateCaps(std::vector<SphereCap> caps, double& share) {
 /// The free share of the first sphere's surface, by heights along an axis of the sphere (Archimedes): that of
 /// the rim of each disc.
 double freeShareByHeights(const std::vector<Ball>& spheres, double tolerance) {
-    const Ball own = spheres[0];
+    const Ball& own = spheres[0];
     std::vector<Ball> inFrame;
     for (const Ball& ball : spheres)
         inFrame.push_back({(ball.centre - own.centre) / own.radius, ball.radius / own.radius});

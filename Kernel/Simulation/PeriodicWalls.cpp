@@ -206,7 +206,7 @@ void PeriodicWalls::takePresent(const WallHandler& walls) {
     for (const PresentWall& wall : walls.present()) {
         const auto known = std::ranges::lower_bound(before, wall.number, {}, &WallLooks::number);
         const bool isKnown = known != before.end() && known->number == wall.number;
-        looks.push_back(isKnown ? std::move(*known) : WallLooks{.number = wall.number, .along = {}});
+        looks.push_back(isKnown ? *known : WallLooks{.number = wall.number, .along = {}});
     }
 }
 
