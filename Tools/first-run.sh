@@ -73,5 +73,9 @@ echo "== 4 of 4: running build/release/Drivers/$driver/$driver"
 options=()
 if "$build/Drivers/$driver/$driver" --help | grep -q -- --paraview-interval-s; then options=(--paraview-interval-s 0.04); fi
 "$build/Drivers/$driver/$driver" "${options[@]}" --output "$driver-output"
-echo "The frames of the run are $PWD/$driver-output/run.pvd: open it with ParaView (www.paraview.org), or with Python and"
-echo "VTK. To change the simulation, edit Drivers/$driver/$driver.cpp and run this again."
+if [[ -f $driver-output/run.pvd ]]; then
+    echo "The frames of the run are $PWD/$driver-output/run.pvd: open it with ParaView (www.paraview.org), or with Python and VTK."
+else
+    echo "The results of the run are in $PWD/$driver-output; this driver writes no frames for ParaView."
+fi
+echo "To change the simulation, edit Drivers/$driver/$driver.cpp and run this again."
