@@ -44,11 +44,13 @@ struct ContactsAround {
     double finer = 1, finest = 1;
 
     /// With how many spheres of another body of this shape one of a body is in contact where the two lie
-    /// along each other, their grooves in step; the contacts of the surface count with it. Fitted from above
-    /// to the whole stiffness matrix of hexagonal crystals of parallel rods of 2 to 14 spheres at 0.15 to 2
-    /// radii from each other, which is up to 5.1 of that of the surface (at 0.2 radii, of 14) where the
-    /// margin of the limit bears a part, and below it from 0.8 (2) or 1 radius (10 spheres) on.
-    [[nodiscard]] double facing() const { return std::min(1.25 * most, 1 + 3 * (mean - 1)); }
+    /// along each other, their grooves and hollows in step; the contacts of the surface count with it. Fitted
+    /// from above to the whole stiffness matrix of crystals, of which the margin of the limit bears a part:
+    /// hexagonal ones of parallel rods of 2 to 14 spheres at 0.15 to 2 radii from each other (up to 5.1, at
+    /// 0.2 radii), and of plates of 3 x 3 at 0.5 and 1 radius (2.95, 1.63), whose hollows take three and more.
+    [[nodiscard]] double facing() const {
+        return std::min(1.25 * most, 1 + (most < 2.5 ? 3 : 5) * (mean - 1));
+    }
     [[nodiscard]] std::array<double, 14> numbers() const;
     /// Where all numbers are not above those of another body, but for the last digit that is kept.
     [[nodiscard]] bool areWithin(const ContactsAround& other) const;
