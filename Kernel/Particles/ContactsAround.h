@@ -47,7 +47,8 @@ struct ContactsAround {
     /// along each other, their grooves and hollows in step; the contacts of the surface count with it. Fitted
     /// from above to the whole stiffness matrix of crystals, of which the margin of the limit bears a part:
     /// hexagonal ones of parallel rods of 2 to 14 spheres at 0.15 to 2 radii from each other (up to 5.1, at
-    /// 0.2 radii), and of plates of 3 x 3 at 0.5 and 1 radius (2.95, 1.63), whose hollows take three and more.
+    /// 0.2 radii), and of plates of 3 x 3 at 0.5 and 1 radius (2.95, 1.63), whose hollows take three and
+    /// more.
     [[nodiscard]] double facing() const {
         return std::min(1.25 * most, 1 + (most < 2.5 ? 3 : 5) * (mean - 1));
     }

@@ -181,8 +181,8 @@ TEST(ContactsAround, areEnoughForCrystalsOfRods) {
 }
 
 // Plates of 3 x 3 spheres that lie on each other in step: of the crystals of such plates with overlaps of 5 %
-// that a search over lattices found, the largest squared frequency (Bloch's matrix at 15 wave vectors, without
-// friction, in a script of its own) needs 2.95 and 1.63.
+// that a search over lattices found, the largest squared frequency (Bloch's matrix at 15 wave vectors,
+// without friction, in a script of its own) needs 2.95 and 1.63.
 TEST(ContactsAround, areEnoughForCrystalsOfPlates) {
     for (const auto& [spacing, needed] : {std::pair{0.5, 2.95}, std::pair{1.0, 1.63}}) {
         std::vector<SphereOfBody> spheres;
