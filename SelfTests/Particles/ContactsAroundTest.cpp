@@ -164,7 +164,7 @@ struct Crystal {
 
 // Rods that lie along each other are the worst that bodies can do, as their grooves are in step: of each
 // sphere of a rod 12 contacts or more. The limit of a bed, 0.9 of that of 2 x 4 k normal facing / M, is below
-// the exact one there, and 0.73 to 0.99 of it for these.
+// the exact one there, and 0.68 to 0.99 of it for these.
 TEST(ContactsAround, areEnoughForCrystalsOfRods) {
     for (const auto& [spacing, count] :
          {std::pair{2.0, 4}, std::pair{1.4, 5}, std::pair{1.0, 6}, std::pair{0.5, 10}, std::pair{0.2, 14}}) {
@@ -176,7 +176,7 @@ TEST(ContactsAround, areEnoughForCrystalsOfRods) {
             exact = std::max(exact, Crystal(row, shifts).largestSquaredFrequency());
         const double limits = 2 * 4 * found.normal * found.facing() / row.mass();
         EXPECT_LT(0.9 * std::sqrt(exact / limits), 1) << spacing;
-        EXPECT_GT(0.9 * std::sqrt(exact / limits), 0.7) << spacing;
+        EXPECT_GT(0.9 * std::sqrt(exact / limits), 0.65) << spacing;
     }
 }
 
