@@ -54,7 +54,7 @@ cmake --preset release "${tests[@]}" >>"$log" 2>&1 ||
 say_progress() {
     local line begin=$SECONDS every=20 end='\n'
     if [[ -t 1 ]]; then every=1 end='\r'; fi
-    while sleep "$every"; do
+    while sleep "$every" >/dev/null 2>&1; do  # it outlives its parent, and must not keep a pipe open
         line=$(tail -n 1 "$log" | sed -n 's/^\[\([0-9]*\)\/\([0-9]*\)\].*/\1 of \2 steps done/p')
         printf "   %-24s %4d s   $end" "${line:-starting}" $((SECONDS - begin))
     done
@@ -71,7 +71,8 @@ echo "   built in $((SECONDS - begin)) s                          "
 
 echo "== 4 of 4: running build/release/Drivers/$driver/$driver"
 options=()
-if "$build/Drivers/$driver/$driver" --help | grep -q -- --paraview-interval-s; then options=(--paraview-interval-s 0.04); fi
+help=$("$build/Drivers/$driver/$driver" --help)
+if [[ $help == *--paraview-interval-s* ]]; then options=(--paraview-interval-s 0.04); fi
 "$build/Drivers/$driver/$driver" "${options[@]}" --output "$driver-output"
 if [[ -f $driver-output/run.pvd ]]; then
     echo "The frames of the run are $PWD/$driver-output/run.pvd: open it with ParaView (www.paraview.org), or with Python and VTK."
