@@ -9,7 +9,7 @@
 #                   server   the server of runs in the browser, which is asked for the run of the first stage
 #                   ranks    the first simulation on 1 and 2 processes (mpirun), whose restart files must be equal
 #                   tests    all tests but those labelled `long`; they may leave out nothing for want of a package
-#                   From `python` on, a warning of the compiler is an error.
+#                   A warning of the compiler is an error.
 # --folder FOLDER   the folder of the system; default: build/roots/NAME. It is kept, and the next run goes on there:
 #                   packages are not installed and files not compiled again. To begin anew, remove it.
 # --shared FOLDER   the reference data, which no test may leave out then
@@ -47,7 +47,7 @@ clone=/root/pendular  # in the system; the tests find the reference data beside 
 
 environment=(PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 MPLBACKEND=Agg
     DEBIAN_FRONTEND=noninteractive CMAKE_BUILD_PARALLEL_LEVEL="$jobs" CTEST_PARALLEL_LEVEL="$jobs"
-    OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1)
+    PENDULAR_WARNINGS_AS_ERRORS=ON OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1)
 for name in http_proxy https_proxy ftp_proxy no_proxy HTTP_PROXY HTTPS_PROXY FTP_PROXY NO_PROXY; do
     if [[ -n ${!name:-} ]]; then environment+=("$name=${!name}"); fi
 done
@@ -116,7 +116,7 @@ first() { block_of "A first simulation" bash | commands; }
 python() {
     commands <<END
 Tools/install-dependencies.sh --python
-cmake --preset release -D PENDULAR_WARNINGS_AS_ERRORS=ON
+cmake --preset release
 $(block_of "Or in Python" bash)
 python3 - <<'PROGRAM'
 $(block_of "Or in Python" python)
@@ -126,7 +126,7 @@ END
 server() {
     commands <<'END'
 Tools/install-dependencies.sh --view
-cmake --preset release -D PENDULAR_WARNINGS_AS_ERRORS=ON -D PENDULAR_VIEW=ON
+cmake --preset release -D PENDULAR_VIEW=ON
 cmake --build --preset release --target view WetTower
 export PENDULAR_VIEW=$PWD/build/release/Tools/view PENDULAR_DRIVERS=$PWD/build/release/Drivers
 mkdir -p build/runs
@@ -146,7 +146,7 @@ END
 ranks() {
     commands <<'END'
 Tools/install-dependencies.sh --mpi
-cmake --preset release -D PENDULAR_WARNINGS_AS_ERRORS=ON -D PENDULAR_MPI=ON
+cmake --preset release -D PENDULAR_MPI=ON
 cmake --build --preset release --target WetTower
 for count in 1 2; do
     mpirun --oversubscribe -n $count build/release/Drivers/WetTower/WetTower --output build/ranks-$count
@@ -158,7 +158,7 @@ tests() {
     environment+=(PENDULAR_REQUIRE_DEPENDENCIES=1)
     commands <<'END'
 Tools/install-dependencies.sh --readers --python --mpi --view
-cmake --preset release -D PENDULAR_WARNINGS_AS_ERRORS=ON -D PENDULAR_BUILD_TESTS=ON -D PENDULAR_QUICK_TEST_BUILD=ON
+cmake --preset release -D PENDULAR_BUILD_TESTS=ON -D PENDULAR_QUICK_TEST_BUILD=ON
 cmake --build --preset release
 ctest --preset release
 END

@@ -3,8 +3,8 @@
 # and says where its frames are. On Debian 12 or 13 it takes some four minutes of one processor.
 #   Tools/first-run.sh [--driver WetTower] [--jobs N]
 # --driver NAME   a driver in the folder Drivers; those that need all of the kernel take some minutes longer
-# --jobs N        files that are compiled at the same time; default: one for each processor, fewer where there is not
-#                 memory for that (1.8 GB each)
+# --jobs N        files that are compiled at the same time, at most; default: one for each processor. Where there is not
+#                 memory for that (1.8 GB each) CMake allows fewer, and says so
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/read-options.sh"
 driver=WetTower jobs=${CMAKE_BUILD_PARALLEL_LEVEL:-}
@@ -15,16 +15,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build=build/release
 log=$build/first-run.log
 
-processors=$(getconf _NPROCESSORS_ONLN)
-memory=$(awk '$1 == "MemAvailable:" { printf "%d", $2 / 1024 }' /proc/meminfo)  # MB
-if [[ -z $jobs ]]; then
-    jobs=$((memory / 1800))
-    if ((jobs < 1)); then jobs=1; fi
-    if ((jobs > processors)); then jobs=$processors; fi
-    if ((jobs < processors)); then
-        echo "$memory MB of memory are free, and a compiler takes up to 1800: $jobs of $processors processors compile at the same time."
-    fi
-fi
+[[ -n $jobs ]] || jobs=$(getconf _NPROCESSORS_ONLN)
 require_number jobs "$jobs"
 
 if command -v pendular >/dev/null; then
@@ -49,6 +40,7 @@ if [[ ! -f $build/CMakeCache.txt ]]; then tests=(-D PENDULAR_BUILD_TESTS=OFF); f
 echo "== 2 of 4: configuring $build"
 cmake --preset release "${tests[@]}" >>"$log" 2>&1 ||
     failed "configuring" "If the folder is of another clone, version or preset, remove it (rm -r $build) and run this again."
+sed -n 's/^-- \(This machine has .* MB of memory\)/   \1/p' "$log"
 
 # What ninja says last, "[7/22] ...", every few seconds: some files take half a minute each.
 say_progress() {
@@ -59,7 +51,7 @@ say_progress() {
         printf "   %-24s %4d s   $end" "${line:-starting}" $((SECONDS - begin))
     done
 }
-echo "== 3 of 4: building $driver with $jobs compilers at a time; some files take half a minute"
+echo "== 3 of 4: building $driver with up to $jobs compilers at a time; some files take half a minute"
 say_progress &
 progress=$!
 trap 'kill "$progress" 2>/dev/null || true' EXIT

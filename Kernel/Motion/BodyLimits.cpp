@@ -8,7 +8,6 @@
 #include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Walls/InfiniteWall.h"
-#include "Kernel/Walls/TriangleWall.h"
 
 namespace pendular {
 
@@ -29,12 +28,6 @@ struct TouchingBody {
     [[nodiscard]] bool isHeld() const { return radius < infinity && !(mass < infinity); }
 };
 
-/// Whether the wall has no hollow that a body may fit into, so that it touches all of its spheres at once.
-/// (Of meshes it is supposed.)
-bool isFlat(const Wall& wall) {
-    return dynamic_cast<const InfiniteWall*>(&wall) || dynamic_cast<const TriangleWall*>(&wall);
-}
-
 /// How many bodies there are: one that is alone touches no other.
 std::size_t countOf(const std::vector<BodiesAlike>& bodies) {
     std::size_t count = 0;
@@ -53,7 +46,7 @@ bool touchBodies(const GrainSizes& grains, const GrainSizes& others, const WallH
 double sidesOfPlanes(const WallHandler& walls) {
     double sides = 0;
     for (const PresentWall& wall : walls.present())
-        sides += dynamic_cast<const InfiniteWall*>(wall.object.get()) ? 1 : isFlat(*wall.object) ? 6 : 0;
+        sides += dynamic_cast<const InfiniteWall*>(wall.object.get()) ? 1 : wall.object->isFlat() ? 6 : 0;
     return std::min(sides, 6.0);
 }
 
@@ -96,7 +89,7 @@ std::vector<TouchingBody> partners(const ContactLaws& species, const GrainSizes&
         found.push_back({.species = static_cast<std::size_t>(wall.object->getSpeciesIndex()),
                          .radius = infinity,
                          .mass = infinity,
-                         .isPlane = isFlat(*wall.object)});
+                         .isPlane = wall.object->isFlat()});
     return found;
 }
 

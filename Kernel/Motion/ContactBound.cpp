@@ -1,6 +1,5 @@
 #include "Kernel/Motion/ContactBound.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -8,6 +7,7 @@
 #include "Kernel/Contacts/HeldMasses.h"
 #include "Kernel/Math/ElementaryFunctions.h"
 #include "Kernel/Math/ExactSum.h"
+#include "Kernel/Math/SymmetricMatrix.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Motion/UnitSums.h"
 #include "Kernel/Particles/MovingBodies.h"
@@ -521,15 +521,11 @@ double ContactBounds::largestOf(const GrainBlock& block, bool exact) {
 }
 
 double ContactBounds::largestOf(const BodyMatrix& block, bool exact) {
-    Eigen::Matrix<double, 6, 6> matrix;
+    Matrix6d matrix;
     std::size_t k = 0;
     for (int row = 0; row < 6; ++row)
         for (int column = 0; column <= row; ++column) matrix(row, column) = matrix(column, row) = block[k++];
-    if (exact) {
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(matrix,
-                                                                                Eigen::EigenvaluesOnly);
-        return solver.eigenvalues()[5];
-    }
+    if (exact) return largestEigenvalueOf(matrix);
     // Wolkowicz and Styan, as for three rows: mean + sqrt(5) standard deviations.
     const double mean = matrix.trace() / 6;
     return mean + std::sqrt(std::max(5 * (matrix.squaredNorm() / 6 - mean * mean), 0.0));

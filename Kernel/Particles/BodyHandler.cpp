@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Math/SymmetricMatrix.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/Particles/Resolution.h"
 #include "Kernel/Shapes/UnionOfSpheres.h"
@@ -222,7 +221,7 @@ BodyReference BodyHandler::join(std::span<const std::uint32_t> identities,
     const PrincipalAxes principal =
         isSphere ? PrincipalAxes{Vec3D::Constant(spheres[0].inertia()), Eigen::Quaterniond::Identity()}
                  : principalAxes(own.inertia);
-    const Vec3D spin = isSphere ? spheres[0].spin : Vec3D(sums.inertia.ldlt().solve(sums.angularMomentum));
+    const Vec3D spin = isSphere ? spheres[0].spin : solveSymmetric(sums.inertia, sums.angularMomentum);
     RigidBody body{.mass = own.mass,
                    .inertia = toVector(principal.moments),
                    .position = toVector(isSphere ? spheres[0].position : own.centre),

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Files/TextFile.h"
+#include "Kernel/Math/SymmetricMatrix.h"
 #include "Kernel/Shapes/UnionOfSpheres.h"
 
 namespace pendular {
@@ -18,15 +18,13 @@ PrincipalAxes principalAxes(const Eigen::Matrix3d& inertia) {
     constexpr double roundOff = 1e-9;  // of what a user computes
     if (!inertia.allFinite() || (inertia - inertia.transpose()).cwiseAbs().maxCoeff() > roundOff * size)
         throw InputError("The inertia of a rigid body must be a finite symmetric matrix (kg m^2).");
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia);
-    const Vec3D& moments = solver.eigenvalues();  // they grow
+    auto [moments, axes] = eigenSystem(inertia);
     if (!(moments[0] > 0) || moments[0] + moments[1] < (1 - roundOff) * moments[2])
         throw InputError(
             fmt::format("The principal moments of inertia of a rigid body are {:.6g}, {:.6g}, {:.6g} kg m^2; "
                         "they must be "
                         "positive, and the largest at most the sum of the others.",
                         moments[0], moments[1], moments[2]));
-    Eigen::Matrix3d axes = solver.eigenvectors();
     if (axes.determinant() < 0) axes.col(0) = -axes.col(0);
     return {moments, Eigen::Quaterniond(axes).normalized()};
 }

@@ -1,6 +1,6 @@
 #include "Kernel/Particles/ContactsAround.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Math/SymmetricMatrix.h"
 #include "Kernel/Particles/TurningResponse.h"
 
 namespace pendular {
@@ -20,9 +21,6 @@ constexpr double overlapOfTouch = 0.05;
 /// Of a grain at rest among others, as StabilityLimit.h has them: a sphere with contacts on all sides has 4
 /// along and 8 across each direction.
 constexpr double alongAll = 4, acrossAll = 8;
-
-using Matrix = Eigen::Matrix<double, 6, 6>;
-using Slip = Eigen::Matrix<double, 3, 6>;
 
 double upwards(double value) {
     int exponent = 0;
@@ -62,37 +60,41 @@ std::vector<Eigen::Vector3d> manyDirections() {
 /// The sums over contacts, over mass and moments of the body: of squared slips.
 class Sums {
 public:
-    Sums(double mass, const Vector<double>& moments) {
-        scale << Eigen::Vector3d::Ones(), std::sqrt(mass / moments.x), std::sqrt(mass / moments.y),
-            std::sqrt(mass / moments.z);
-    }
+    Sums(double mass, const Vector<double>& moments)
+        : perMoment(std::sqrt(mass / moments.x), std::sqrt(mass / moments.y), std::sqrt(mass / moments.z)) {}
+
     /// @param weight of what is along the normal, contacts; @param across the same of each tangent
     void add(const Eigen::Vector3d& arm, const Eigen::Vector3d& n, double weight, double across) {
-        Slip slip;  // v + w x arm
-        slip << Eigen::Matrix3d::Identity(), -cross(arm);
-        slip = slip * scale.asDiagonal();
-        const Eigen::Matrix<double, 1, 6> along = n.transpose() * slip;
-        const Matrix ofNormal = along.transpose() * along;
-        normal += weight * ofNormal;
-        sliding += across * (slip.transpose() * slip - ofNormal);
+        const auto [x, y, z] = toVector(arm);
+        const auto [a, b, c] = toVector(perMoment);
+        const std::array<std::array<double, 6>, 3> slip{
+            {{1, 0, 0, 0, b * z, -c * y}, {0, 1, 0, -a * z, 0, c * x}, {0, 0, 1, a * y, -b * x, 0}}};
+        std::array<double, 6> along{};
+        for (std::size_t k = 0; k < 6; ++k)
+            along[k] = n.x() * slip[0][k] + n.y() * slip[1][k] + n.z() * slip[2][k];
+        // By hand: Eigen's products of these sizes take seconds to compile.
+        for (std::size_t i = 0; i < 6; ++i)
+            for (std::size_t j = 0; j <= i; ++j) {
+                const double ofNormal = along[i] * along[j];
+                const double ofAll =
+                    slip[0][i] * slip[0][j] + slip[1][i] * slip[1][j] + slip[2][i] * slip[2][j];
+                addTo(normal, i, j, weight * ofNormal);
+                addTo(sliding, i, j, across * (ofAll - ofNormal));
+            }
     }
-    [[nodiscard]] double ofNormal() const { return largest(normal); }
-    [[nodiscard]] double ofSliding() const { return largest(sliding); }
-    [[nodiscard]] double ofSpin() const { return largest(sliding.bottomRightCorner<3, 3>().eval()); }
+    [[nodiscard]] double ofNormal() const { return largestEigenvalueOf(normal); }
+    [[nodiscard]] double ofSliding() const { return largestEigenvalueOf(sliding); }
+    [[nodiscard]] double ofSpin() const {
+        return largestEigenvalueOf(Eigen::Matrix3d(sliding.bottomRightCorner<3, 3>()));
+    }
 
 private:
-    static Eigen::Matrix3d cross(const Eigen::Vector3d& a) {
-        Eigen::Matrix3d m;
-        m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-        return m;
+    static void addTo(Matrix6d& sum, std::size_t i, std::size_t j, double value) {
+        sum(static_cast<int>(i), static_cast<int>(j)) += value;
+        if (i != j) sum(static_cast<int>(j), static_cast<int>(i)) += value;
     }
-    template <class M>
-    static double largest(const M& matrix) {
-        const Eigen::SelfAdjointEigenSolver<M> solver(matrix, Eigen::EigenvaluesOnly);
-        return solver.eigenvalues()[matrix.rows() - 1];
-    }
-    Eigen::Matrix<double, 6, 1> scale;
-    Matrix normal = Matrix::Zero(), sliding = Matrix::Zero();
+    Eigen::Vector3d perMoment;  // 1/m, sqrt(mass over moment), of turning about each axis
+    Matrix6d normal = Matrix6d::Zero(), sliding = Matrix6d::Zero();
 };
 
 /// The spheres of a body, each with those that it overlaps or that a grain on it may touch as well.

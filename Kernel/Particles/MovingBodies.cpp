@@ -1,8 +1,7 @@
 #include "Kernel/Particles/MovingBodies.h"
 
-#include <Eigen/Cholesky>
-
 #include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Math/SymmetricMatrix.h"
 #include "Kernel/Particles/SphericalParticle.h"
 
 namespace pendular {
@@ -22,7 +21,7 @@ Vector<double> plasticImpulse(const RigidBody& body, HeldBits held, const Vector
                 spinOfHeld(body.inertia, body.orientation, held, cross(arm, unit), {0, 0, 0});
             response.col(axis) += toEigen((1 / body.mass) * held.partAlong(unit) + cross(spin, arm));
         }
-        return toVector(Eigen::Vector3d(response.ldlt().solve(toEigen(approach))));
+        return toVector(solveSymmetric(response, toEigen(approach)));
     }
     const Axes axes(body.orientation);
     Eigen::Matrix3d turn;
@@ -33,7 +32,7 @@ Vector<double> plasticImpulse(const RigidBody& body, HeldBits held, const Vector
     cross << 0, -arm.z, arm.y, arm.z, 0, -arm.x, -arm.y, arm.x, 0;
     const Eigen::Matrix3d response =
         (1 / mass + 1 / body.mass) * Eigen::Matrix3d::Identity() - cross * inverseInertia * cross;
-    return toVector(Eigen::Vector3d(response.ldlt().solve(toEigen(approach))));
+    return toVector(solveSymmetric(response, toEigen(approach)));
 }
 
 }  // namespace

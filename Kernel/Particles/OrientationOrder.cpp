@@ -1,12 +1,12 @@
 #include "Kernel/Particles/OrientationOrder.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
 
 #include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Math/SymmetricMatrix.h"
 
 namespace pendular {
 
@@ -16,8 +16,8 @@ OrientationOrder orientationOrder(std::span<const Vec3D> axes) {
     for (const Vec3D& axis : axes) sum += axis * axis.transpose();
     const Eigen::Matrix3d mean =
         1.5 / static_cast<double>(axes.size()) * sum - 0.5 * Eigen::Matrix3d::Identity();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(mean);
-    return {solver.eigenvalues()[2], solver.eigenvectors().col(2), axes.size()};
+    const EigenSystem system = eigenSystem(mean);
+    return {system.values[2], system.vectors.col(2), axes.size()};
 }
 
 std::optional<int> axisOf(const Vector<double>& moments) {

@@ -1,6 +1,5 @@
 #include "Kernel/Particles/RigidBodies.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +7,7 @@
 #include <utility>
 
 #include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Math/SymmetricMatrix.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Particles/Resolution.h"
 #include "Kernel/Particles/TurningResponse.h"
@@ -230,7 +230,7 @@ double responseOfTurning(const Vector<double>& arm, const Vector<double>& inerti
     cross << 0, -arm.z, arm.y, arm.z, 0, -arm.x, -arm.y, arm.x, 0;
     const Eigen::Vector3d inverse(1 / inertia.x, 1 / inertia.y, 1 / inertia.z);
     const Eigen::Matrix3d response = cross.transpose() * inverse.asDiagonal() * cross;
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(response, Eigen::EigenvaluesOnly).eigenvalues()[2];
+    return largestEigenvalueOf(response);
 }
 
 double RigidBodies::massAtContacts(const ParticleStore& grains, std::size_t at) const {

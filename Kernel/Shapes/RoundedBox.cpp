@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Math/SymmetricMatrix.h"
 #include "Kernel/Species/Field.h"
 
 namespace pendular {
@@ -107,7 +107,7 @@ double RoundedBox::turning() const {
     cross << 0, -arm.z, arm.y, arm.z, 0, -arm.x, -arm.y, arm.x, 0;
     const Eigen::Vector3d inverse = solid.volume * solid.inertia.diagonal().cwiseInverse();
     const Eigen::Matrix3d response = cross.transpose() * inverse.asDiagonal() * cross;
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(response, Eigen::EigenvaluesOnly).eigenvalues()[2];
+    return largestEigenvalueOf(response);
 }
 
 double RoundedBox::radiusAtContacts() const {

@@ -37,6 +37,7 @@ public:
     void setTargetForce(double force, double time, double largestSpeed);
 
     [[nodiscard]] bool hasConvexParts() const override { return true; }
+    [[nodiscard]] bool isFlat() const override { return true; }
     using RigidWall::drive;
     [[nodiscard]] PlaneDrive* drive() override { return driven ? &*driven : nullptr; }
     /// m/s, positive away from the grains; 0 unless it is moved by forces.

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,6 +10,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/Parallel.h"
+#include "Kernel/Math/SymmetricMatrix.h"
 #include "Kernel/Shapes/WeldedMesh.h"
 #include "Kernel/Walls/BoxTree.h"
 
@@ -325,10 +325,7 @@ double MembraneNet::squaredFrequency(const std::vector<bool>& held) const {
     }
     sumOverCopies(tensors);
     double largest = 0;
-    for (const Eigen::Matrix3d& tensor : tensors) {
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(tensor, Eigen::EigenvaluesOnly);
-        largest = std::max(largest, solver.eigenvalues()[2]);
-    }
+    for (const Eigen::Matrix3d& tensor : tensors) largest = std::max(largest, largestEigenvalueOf(tensor));
     return largest;
 }
 

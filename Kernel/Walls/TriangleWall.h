@@ -66,6 +66,7 @@ public:
     [[nodiscard]] bool movesVertices() const override { return moving.has_value(); }
     [[nodiscard]] bool canBeRepeated() const override { return true; }
     [[nodiscard]] bool hasConvexParts() const override { return true; }
+    [[nodiscard]] bool isFlat() const override { return true; }
     [[nodiscard]] SurfaceAtFaces atFaces(const PeriodicFaces& faces) const override {
         return polygonsAtFaces(surface({}).polygons, faces);
     }

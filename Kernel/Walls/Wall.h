@@ -75,6 +75,10 @@ public:
     /// to it in one place: not of a bowl.
     [[nodiscard]] virtual bool hasConvexParts() const { return false; }
 
+    /// Whether it has no hollow that a body may fit into, so that it touches all spheres of a body at once.
+    /// (Of meshes it is supposed.)
+    [[nodiscard]] virtual bool isFlat() const { return false; }
+
     /// Appends the parts that a sphere with this centre may touch while its centre is within `reach` (m) of
     /// them; where the scene repeats the wall, also those of its images.
     virtual void listParts(const Vector<double>& centre, double reach,

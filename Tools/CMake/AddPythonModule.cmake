@@ -20,7 +20,7 @@ endforeach()
 list(APPEND pythonSpecies ${PENDULAR_PYTHON_SPECIESNamed})
 list(REMOVE_DUPLICATES pythonSpecies)
 list(REMOVE_ITEM pythonSpecies ${PENDULAR_POPULAR_SPECIES})
-pendular_instantiate_species("${pythonGenerated}" PythonSpecies "${pythonSpecies}" pythonSpeciesSources)
+pendular_instantiate_species("${pythonGenerated}" PythonSpecies "${pythonSpecies}" 3 pythonSpeciesSources)
 list(JOIN PENDULAR_PYTHON_SHAPED_SPECIESNamed ", " shapedSpecies)
 file(CONFIGURE OUTPUT "${pythonGenerated}/ShapedSpecies.h" @ONLY CONTENT [[
 #pragma once

@@ -1,11 +1,19 @@
 # The core: what a driver needs that includes no more than Kernel/MercuryNames.h and Drivers/Shared/CommandLine.h, some
-# two thirds of the kernel. Who builds such a driver compiles no other file. There is no list of it. A file is needed if its
-# header is (that of the same name; for a file without one, the first that it includes), and so is all that it includes.
+# six tenths of the kernel. Who builds such a driver compiles no other file. There is no list of it. A file is needed if its
+# header is (that of the same name; for a file without one, the first that it includes), and so is all that it includes,
+# but for what notInCore names. That the core needs nothing else, the test Core shows: it links as a whole by itself.
 # Read when CMake runs: after a new #include in a file of the core, run CMake again.
 
 set(coreRoots Kernel/MercuryNames.h Drivers/Shared/CommandLine.h)
-# What is only called in scenes with species of several types, through headers of the core.
-set(notInCore "SpeciesRegistry|SeveralSpecies")
+# Files that files of the core include or share a header with, and do not call: species of several types; meshes,
+# superquadrics and files of other programs, which scenes add by headers of their own; and laws of bridges by tables or
+# fits, with the solver of their equations, which only a driver that names such a law calls.
+set(notInCore "SpeciesRegistry|SeveralSpecies|/TriangleWall|/TriangleReader|/MeshParts\\.cpp|/SuperquadricHandler"
+    "/BlockGeometry\\.cpp|/PolyDataReader|/Capillary/.*\\.cpp|YoungLaplace\\.cpp|/FittedBridge\\.cpp|/ExactBridge\\.cpp"
+    "/BridgeSurface\\.cpp")
+list(JOIN notInCore "|" notInCore)
+set(lawsOfCore "LiquidBridge(Bagheri|Willett?|Volume)")
+set(lawsOfOthers "LiquidBridge|LiquidMigration")
 
 # In `result`: the files of ours that a file includes, as paths in the repository.
 function(pendular_includes_of file result)
@@ -35,7 +43,7 @@ function(pendular_find_core sources)
     set(core "")
     while(open)
         list(POP_BACK open file)
-        if(NOT DEFINED "seen/${file}")
+        if(NOT DEFINED "seen/${file}" AND NOT file MATCHES "${notInCore}")
             set("seen/${file}" TRUE)
             list(APPEND core "${file}")
             pendular_includes_of("${file}" included)
@@ -44,9 +52,13 @@ function(pendular_find_core sources)
     endwhile()
     set(headers ${core})
     list(FILTER headers INCLUDE REGEX "\\.h$")
-    list(FILTER headers EXCLUDE REGEX "${notInCore}")  # who includes one of these itself calls it
+    foreach(header IN LISTS headers)
+        string(REGEX REPLACE "\\.h$" ".cpp" source "${header}")
+        if(source MATCHES "${notInCore}")  # who includes it by its name calls what the core has not
+            list(REMOVE_ITEM headers "${header}")
+        endif()
+    endforeach()
     list(FILTER core INCLUDE REGEX "\\.cpp$")
-    list(FILTER core EXCLUDE REGEX "${notInCore}")
     list(SORT core)
     list(TRANSFORM core PREPEND "${PROJECT_SOURCE_DIR}/")
     set(coreHeaders "${headers}" PARENT_SCOPE)
@@ -62,15 +74,15 @@ function(pendular_is_core_driver sources isCore species)
         cmake_path(RELATIVE_PATH source BASE_DIRECTORY "${PROJECT_SOURCE_DIR}" OUTPUT_VARIABLE relative)
         pendular_includes_of("${relative}" included)
         list(REMOVE_ITEM included ${coreHeaders})
-        file(STRINGS "${source}" lines REGEX "[A-Za-z]Species|Simulation<")
-        if(included OR lines MATCHES "Simulation<>|Simulation<[A-Za-z]+,")
+        file(STRINGS "${source}" lines REGEX "[A-Za-z]Species|Simulation<|LiquidBridge|LiquidMigration")
+        string(REGEX REPLACE "${lawsOfCore}" "" otherLaws "${lines}")
+        if(included OR lines MATCHES "Simulation<>|Simulation<[A-Za-z]+," OR otherLaws MATCHES "${lawsOfOthers}")
             set(is FALSE)
         endif()
         string(REGEX MATCHALL "[A-Za-z]+Species" names "${lines}")
         foreach(name IN LISTS names)
             list(FIND PENDULAR_POPULAR_SPECIES "${name}" at)
             if(at GREATER_EQUAL 0)
-                math(EXPR at "${at} / ${speciesInFile}")
                 list(APPEND libraries PendularSpecies${at})
             endif()
         endforeach()

@@ -148,9 +148,8 @@ set(PENDULAR_SPECIES_OF_TESTS
     HertzianViscoelasticMindlinLiquidMigrationBagheriSpecies)
 
 # Writes a header <type>.h, which declares the species of a list as the TypeList `type`, and in `sources` files that
-# compile speciesInFile of them each.
-set(speciesInFile 3)
-function(pendular_instantiate_species folder type species sources)
+# compile so many of them each.
+function(pendular_instantiate_species folder type species speciesInFile sources)
     cmake_path(RELATIVE_PATH folder BASE_DIRECTORY "${PROJECT_BINARY_DIR}/Generated" OUTPUT_VARIABLE include)
     set(declared "")
     set(listed "")
