@@ -133,7 +133,7 @@ std::optional<double> scaleOf(std::string_view name) {
     return lookUp(scales, name);
 }
 
-std::optional<TableColumns> columnsOf(std::string_view line) {
+std::optional<TableColumns> tableColumnsOf(std::string_view line) {
     static constexpr std::pair<std::string_view, TableKind> kinds[] = {{"cumulative", TableKind::Cumulative},
                                                                        {"class", TableKind::Class},
                                                                        {"single", TableKind::Single},
@@ -215,7 +215,7 @@ Rows readSizeRows(const InputFile& file) {
             addRow(file, line, text, rows);
             continue;
         }
-        columns = columnsOf(text);
+        columns = tableColumnsOf(text);
         if (!columns) refuseOtherContent(file);
         if (!columns)
             file.refuse("line", line,
