@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # From a clone to the first simulation: installs the packages that are missing, configures, builds and runs one driver,
-# and says where its frames are. On Debian 12 or 13 it takes some four minutes of one processor.
+# and says where its frames are. On Debian 12 or 13 it takes some three minutes of one processor.
 #   Tools/first-run.sh [--driver WetTower] [--jobs N]
 # --driver NAME   a driver in the folder Drivers; those that need all of the kernel take some minutes longer
-# --jobs N        files that are compiled at the same time, at most; default: one for each processor. Where there is not
-#                 memory for that (1.8 GB each) CMake allows fewer, and says so
+# --jobs N        files that are compiled at the same time, at most; default: one for each processor. Where installed memory
+#                 (or the limit of a container) is less than 1.8 GB for each, CMake allows fewer and says so
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/read-options.sh"
 driver=WetTower jobs=${CMAKE_BUILD_PARALLEL_LEVEL:-}
@@ -57,7 +57,7 @@ progress=$!
 trap 'kill "$progress" 2>/dev/null || true' EXIT
 begin=$SECONDS
 NINJA_STATUS="[%f/%t] " cmake --build --preset release --target "$driver" --parallel "$jobs" >>"$log" 2>&1 ||
-    failed "the build" "'Killed' or 'cannot allocate memory' means too little memory: add --jobs 1."
+    failed "the build" "'Killed' or 'cannot allocate memory' means too little memory: close other programs, or add --jobs 1."
 kill "$progress" 2>/dev/null || true
 echo "   built in $((SECONDS - begin)) s                          "
 

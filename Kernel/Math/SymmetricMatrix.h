@@ -1,7 +1,7 @@
 #pragma once
 
-/// Eigenvalues and linear systems of small symmetric matrices. Eigen's solvers are compiled here and nowhere
-/// else: each file that instantiates one takes seconds longer to compile.
+/// Eigenvalues and linear systems of small symmetric matrices. Eigen's solvers for them are compiled here and
+/// nowhere else: each file that instantiates one takes seconds longer to compile.
 
 #include <Eigen/Core>
 
@@ -19,7 +19,8 @@ struct EigenSystem {
 };
 [[nodiscard]] EigenSystem eigenSystem(const Eigen::Matrix3d& symmetric);
 
-/// x in matrix x = right, of a symmetric matrix that is positive or negative definite.
+/// x in matrix x = right, of a symmetric matrix that is positive or negative semidefinite (LDL^T with pivots;
+/// of a singular one, a solution where there is one).
 [[nodiscard]] Eigen::Vector3d solveSymmetric(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& right);
 
 }  // namespace pendular

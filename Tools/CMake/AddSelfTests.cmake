@@ -256,8 +256,12 @@ if(hasMpi AND NOT isQuickSanitizer)
 endif()
 
 # The core (Core.cmake) needs nothing of the rest of the kernel: a program with all of it links.
-file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/SelfTests/CoreAlone.cpp" CONTENT "int main() {}\n")
-add_executable(CoreAlone "${PROJECT_BINARY_DIR}/SelfTests/CoreAlone.cpp")
-target_link_libraries(CoreAlone PRIVATE "$<LINK_LIBRARY:WHOLE_ARCHIVE,PendularCore>")
-add_test(NAME CoreAlone COMMAND CoreAlone)
-set_tests_properties(CoreAlone PROPERTIES LABELS "fast;build")
+if(TARGET PendularCommandLine AND NOT PENDULAR_FUZZ)  # whose readers are a library of their own
+    file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/SelfTests/CoreAlone.cpp" CONTENT "int main() {}\n")
+    add_executable(CoreAlone "${PROJECT_BINARY_DIR}/SelfTests/CoreAlone.cpp")
+    target_link_libraries(CoreAlone PRIVATE "$<LINK_LIBRARY:WHOLE_ARCHIVE,PendularCommandLine,PendularCore>")
+    add_test(NAME CoreAlone COMMAND CoreAlone)
+    add_test(NAME CoreDrivers COMMAND "${CMAKE_COMMAND}" -D "source=${PROJECT_SOURCE_DIR}" -D "build=${PROJECT_BINARY_DIR}"
+             -P "${PROJECT_SOURCE_DIR}/Tools/CMake/CheckCoreDrivers.cmake")
+    set_tests_properties(CoreAlone CoreDrivers PROPERTIES LABELS "fast;build")
+endif()

@@ -1,7 +1,7 @@
-# The core: what a driver needs that includes no more than Kernel/MercuryNames.h and Drivers/Shared/CommandLine.h, some
-# six tenths of the kernel. Who builds such a driver compiles no other file. There is no list of it. A file is needed if its
+# The core: what a driver needs that includes no more than Kernel/MercuryNames.h and Drivers/Shared/CommandLine.h, two
+# thirds of the kernel's files. Who builds such a driver compiles no other file. There is no list of it. A file is needed if its
 # header is (that of the same name; for a file without one, the first that it includes), and so is all that it includes,
-# but for what notInCore names. That the core needs nothing else, the test Core shows: it links as a whole by itself.
+# but for what notInCore names. That the core needs nothing else, the test CoreAlone shows: it links as a whole by itself.
 # Read when CMake runs: after a new #include in a file of the core, run CMake again.
 
 set(coreRoots Kernel/MercuryNames.h Drivers/Shared/CommandLine.h)
@@ -12,19 +12,21 @@ set(notInCore "SpeciesRegistry|SeveralSpecies|/TriangleWall|/TriangleReader|/Mes
     "/BlockGeometry\\.cpp|/PolyDataReader|/Capillary/.*\\.cpp|YoungLaplace\\.cpp|/FittedBridge\\.cpp|/ExactBridge\\.cpp"
     "/BridgeSurface\\.cpp")
 list(JOIN notInCore "|" notInCore)
+# Headers of the core that also declare, or call, what the core has not.
+set(headersOfMore "/Membrane\\.h|/MembraneNet\\.h|/FaceSurface\\.h|/PolyData\\.h")
 set(lawsOfCore "LiquidBridge(Bagheri|Willett?|Volume)")
-set(lawsOfOthers "LiquidBridge|LiquidMigration")
+set(lawsOfOthers "LiquidBridge|LiquidMigration|YoungLaplace|[Bb]ridgeArea|olveBridgeSurface")
 
 # In `result`: the files of ours that a file includes, as paths in the repository.
 function(pendular_includes_of file result)
     set(found "")
     foreach(folder "${PROJECT_SOURCE_DIR}" "${PROJECT_BINARY_DIR}/Generated")
         if(EXISTS "${folder}/${file}")
-            file(STRINGS "${folder}/${file}" found REGEX "^ *#include \"")
+            file(STRINGS "${folder}/${file}" found REGEX "^[ \t]*#[ \t]*include[ \t]*[\"<](Kernel|Drivers|[^>]*\")")
             break()
         endif()
     endforeach()
-    list(TRANSFORM found REPLACE "^ *#include \"([^\"]*)\".*$" "\\1")
+    list(TRANSFORM found REPLACE "^[ \t]*#[ \t]*include[ \t]*[\"<]([^\">]*)[\">].*$" "\\1")
     set(${result} "${found}" PARENT_SCOPE)
 endfunction()
 
@@ -54,7 +56,7 @@ function(pendular_find_core sources)
     list(FILTER headers INCLUDE REGEX "\\.h$")
     foreach(header IN LISTS headers)
         string(REGEX REPLACE "\\.h$" ".cpp" source "${header}")
-        if(source MATCHES "${notInCore}")  # who includes it by its name calls what the core has not
+        if(source MATCHES "${notInCore}" OR header MATCHES "${headersOfMore}")  # a driver that includes it needs the whole kernel
             list(REMOVE_ITEM headers "${header}")
         endif()
     endforeach()
@@ -65,8 +67,20 @@ function(pendular_find_core sources)
     set(coreSources "${core}" PARENT_SCOPE)
 endfunction()
 
+# In `result`: the text of a file without comments and blanks, with species by the names that they have in the lists.
+function(pendular_plain_text file result)
+    file(READ "${file}" text)
+    string(REGEX REPLACE "//[^\n]*" "" text "${text}")
+    string(REGEX REPLACE "[ \t\r\n]|pendular::" "" text "${text}")
+    string(REGEX REPLACE "Species<([A-Za-z]+),([A-Za-z]+),([A-Za-z]+)>" "\\1\\2\\3Species" text "${text}")
+    string(REGEX REPLACE "(NoFriction|NoAdhesion)" "" text "${text}")
+    string(REGEX REPLACE "Willett?" "Willett" text "${text}")
+    set(${result} "${text}" PARENT_SCOPE)
+endfunction()
+
 # In `isCore`: whether the core and popular species are all that a driver needs; in `species`: the libraries of those
-# that it names. Not where a scene has species of several types, which know all popular ones.
+# that it names. Not where a scene has species of several types, which know all popular ones, or where its text does not
+# tell its species.
 function(pendular_is_core_driver sources isCore species)
     set(is TRUE)
     set(libraries "")
@@ -74,12 +88,13 @@ function(pendular_is_core_driver sources isCore species)
         cmake_path(RELATIVE_PATH source BASE_DIRECTORY "${PROJECT_SOURCE_DIR}" OUTPUT_VARIABLE relative)
         pendular_includes_of("${relative}" included)
         list(REMOVE_ITEM included ${coreHeaders})
-        file(STRINGS "${source}" lines REGEX "[A-Za-z]Species|Simulation<|LiquidBridge|LiquidMigration")
-        string(REGEX REPLACE "${lawsOfCore}" "" otherLaws "${lines}")
-        if(included OR lines MATCHES "Simulation<>|Simulation<[A-Za-z]+," OR otherLaws MATCHES "${lawsOfOthers}")
+        pendular_plain_text("${source}" text)
+        string(REGEX REPLACE "${lawsOfCore}" "" otherLaws "${text}")
+        string(REGEX REPLACE "Simulation<([A-Za-z0-9_]+|decltype\\([A-Za-z0-9_]+\\))>" "" otherScenes "${text}")
+        if(included OR otherScenes MATCHES "Simulation<" OR otherLaws MATCHES "${lawsOfOthers}")
             set(is FALSE)
         endif()
-        string(REGEX MATCHALL "[A-Za-z]+Species" names "${lines}")
+        string(REGEX MATCHALL "[A-Za-z]+Species" names "${text}")
         foreach(name IN LISTS names)
             list(FIND PENDULAR_POPULAR_SPECIES "${name}" at)
             if(at GREATER_EQUAL 0)
