@@ -61,9 +61,16 @@ struct WallPointColumns {
         store(velocity, velocities);
         distances.store(distance.lane.data());
     }
+    [[nodiscard]] Vector<double> normalAt(std::size_t lane) const { return vectorAt(normal, lane); }
     /// m/s
-    [[nodiscard]] Vector<double> velocityAt(std::size_t lane) const {
-        return {velocity[0].lane[lane], velocity[1].lane[lane], velocity[2].lane[lane]};
+    [[nodiscard]] Vector<double> velocityAt(std::size_t lane) const { return vectorAt(velocity, lane); }
+    [[nodiscard]] WallPoint pointAt(std::size_t lane) const {
+        return {normalAt(lane), distance.lane[lane], velocityAt(lane)};
+    }
+
+private:
+    static Vector<double> vectorAt(const std::array<LaneColumn, 3>& columns, std::size_t lane) {
+        return {columns[0].lane[lane], columns[1].lane[lane], columns[2].lane[lane]};
     }
 };
 
