@@ -273,8 +273,9 @@ public:
     bool keepsTotals = false;    // the kernel sums forces
     mutable ForceTotals totals;  // whoever moves the grains takes them
     /// The gap (m) of each block: while no two bodies have approached by this since they were listed, nothing
-    /// in it can begin to touch, or to form a bridge at its filmContactGap. It has no meaning for blocks with
-    /// memory.
+    /// in it can begin to touch, or to form a bridge at its filmContactGap. A block that is looked at after
+    /// that, and in which nothing has begun, gets a new one from where its bodies are then; superquadrics
+    /// keep that of the list. It has no meaning for blocks with memory.
     std::vector<double> gaps;
 
     [[nodiscard]] std::size_t blockCount() const { return blocks.size(); }
