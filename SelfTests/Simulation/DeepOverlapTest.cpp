@@ -25,9 +25,9 @@ using support::contains;
 using support::Random;
 using support::TestFolder;
 
-/// The same normal law without a largest overlap: its runs go on.
+/// The same normal law with a largest overlap at which one grain is all within the other: its runs go on.
 struct Bottomless : LinearViscoelastic {
-    static constexpr double largestOverlapInRun = 1e6;
+    static constexpr double largestOverlapInRun = 2;
 };
 using Refusing = Species<LinearViscoelastic>;
 using Boundless = Species<Bottomless>;
