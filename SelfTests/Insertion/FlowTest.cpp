@@ -103,11 +103,12 @@ TEST(Outlet, letsGoWhatIsOldEnough) {
 TEST(Outlet, letsGoAsBruteForceDoes) {
     FilledScene scene;
     scene.setTimeStep(1e-5);
+    scene.acceptUnstableTimeStep();  // they are too small to meet each other
     support::Random random(4);
-    constexpr std::uint32_t number = 400, held = 40;
+    constexpr std::uint32_t number = 240, held = 24;
     for (std::uint32_t k = 0; k < number; ++k) {
-        SphericalParticle grain = scene.grain(random.inCube(3));
-        grain.setRadius(0.01 * d), grain.setPosition(random.inCube(10 * d));
+        SphericalParticle grain = scene.grain(random.inCube(2));
+        grain.setRadius(0.04 * d), grain.setPosition(random.inCube(10 * d));
         if (k % (number / held) == 0) grain.fixParticle();
         scene.particleHandler.copyAndAddObject(grain);
     }
@@ -128,6 +129,7 @@ TEST(Outlet, letsGoAsBruteForceDoes) {
         for (const GrainReference grain : scene.particleHandler)
             ends[grain.getId()] = grain.getPosition() + scene.getTimeStep() * grain.getVelocity();
         scene.step();
+        ASSERT_EQ(scene.contacts().counts().touching, 0u);
         for (const auto& [identity, end] : ends) {
             const bool isHeld = identity % (number / held) == 0;
             int through = -1;
@@ -142,7 +144,7 @@ TEST(Outlet, letsGoAsBruteForceDoes) {
     }
     for (std::size_t k = 0; k < expected.size(); ++k) {
         EXPECT_EQ(scene.outletHandler.countOf(k).all().number, expected[k]) << k;
-        EXPECT_GT(expected[k], 5u) << k;
+        EXPECT_GT(expected[k], 2u) << k;
     }
 }
 
