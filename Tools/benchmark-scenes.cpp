@@ -19,6 +19,7 @@
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/LawNames.h"
+#include "Tools/Studies/BulkComparison/FlowScene.h"
 
 using namespace pendular;
 
@@ -185,7 +186,8 @@ void measure(Scene& scene, const Options& options, double memoryBefore) {
     scene.initialise();
     scene.step(options.warm);
     ranks.begin();
-    const std::size_t rebuildsBefore = scene.contacts().rebuildCount();
+    const std::size_t rebuildsBefore = scene.contacts().rebuildCount(),
+                      grainsBefore = scene.particleHandler.getSize();
     GrainFlow flow(scene, options.exchange);
     const double processorBefore = processorTime();
     const auto start = std::chrono::steady_clock::now();
@@ -202,7 +204,9 @@ void measure(Scene& scene, const Options& options, double memoryBefore) {
     scene.gather();
 
     const auto& grains = scene.particleHandler.store();
-    const auto count = static_cast<double>(grains.size());
+    const auto count = static_cast<double>(grains.count());
+    // Of a hopper some have left.
+    const double meanCount = 0.5 * (static_cast<double>(grainsBefore) + count);
     std::size_t listed = 0;
     scene.contacts().forEachListed([&](const Bucket&, std::uint32_t) { ++listed; });
     const std::size_t touching = scene.contacts().counts().touching;
@@ -213,8 +217,8 @@ void measure(Scene& scene, const Options& options, double memoryBefore) {
             "processor_seconds{}\n",
             options.ranks ? RanksAtWork::columns : "");
     fmt::print("{},{},{},{},{},{},{},{:.6g},{:.4f},{:.1f},{},{:.6e},{:016x},{:.1f},{:.6g}",
-               options.choice.scene, scene.laws().name, grains.size(), listed, touching, options.threads,
-               options.steps, seconds, count * static_cast<double>(options.steps) / seconds * 1e-6,
+               options.choice.scene, scene.laws().name, grains.count(), listed, touching, options.threads,
+               options.steps, seconds, meanCount * static_cast<double>(options.steps) / seconds * 1e-6,
                static_cast<double>(grains.bytes() + scene.contacts().bytes()) / count,
                scene.contacts().rebuildCount() - rebuildsBefore, translationalEnergy(grains),
                stateHash(grains), (peakMemory() - memoryBefore) / count, processorSeconds);
@@ -235,11 +239,29 @@ void printGrains(const Options& options) {
                    grain.position.z());
 }
 
+/// A drum or a hopper in flow, at the step that users of other codes take.
+void measureFlow(const Options& options, double memoryBefore) {
+    const scenes::BenchmarkChoice& choice = options.choice;
+    const std::size_t grains = choice.particlesOr(bulk::ownFlowGrains(choice.scene));
+    bulk::PeerScene scene(bulk::keptFlowStart(choice.scene, grains, choice.states, options.threads));
+    scene.setTimeStep(bulk::flowStep());
+    scene.acceptUnstableTimeStep();
+    measure(scene, options, memoryBefore);
+}
+
 int run(const Options& options) {
+    const bool flows = bulk::isFlowScene(options.choice.scene);
+    if (options.grains && flows)
+        throw InputError(
+            fmt::format("benchmark-scenes: the scene {} prints no grains; its start is a file that LIGGGHTS "
+                        "reads, in the folder of --states.",
+                        options.choice.scene));
     if (options.grains) return printGrains(options), 0;
+    scenes::check(options.choice, bulk::flowSceneNames);
     checkValue("benchmark-scenes", "steps", static_cast<double>(options.steps), "", {1, 1e12});
     checkValue("benchmark-scenes", "wander", options.wander, "of the grains", {0, 1});
     const double memoryBefore = peakMemory();
+    if (flows) return measureFlow(options, memoryBefore), 0;
     scenes::withBenchmarkScene(options.choice, options.threads,
                                [&](Scene& scene) { measure(scene, options, memoryBefore); });
     return 0;
@@ -255,7 +277,9 @@ int main(int argc, char** argv) {
         "large scenes, and kept in the folder of --states.");
     Options o;
     app.add_option("--scene", o.choice.scene,
-                   "bed, clumps, wet-bed, wet-walls, sprayed-bed, drum, penetration, gas or polydisperse")
+                   "in flow: flowing-drum, flowing-hopper (soft grains, a fifth of Rayleigh's time as step), "
+                   "drum (with a mesh), gas; at rest: bed, clumps, wet-bed, wet-walls, sprayed-bed, "
+                   "polydisperse, unless --shear is given; penetration: a sphere in a bed")
         ->capture_default_str();
     app.add_option("--particles", o.choice.particles,
                    "number of grains, about; the scene's own if not given");

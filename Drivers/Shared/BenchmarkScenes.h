@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "BuildFolders.h"
@@ -185,9 +186,11 @@ void withPenetration(const BenchmarkChoice& choice, Function&& function) {
 }
 
 /// Refuses what does not fit together.
-inline void check(const BenchmarkChoice& choice) {
-    static const std::vector<std::string_view> known{
-        "bed", "clumps", "wet-bed", "wet-walls", "sprayed-bed", "drum", "penetration", "gas", "polydisperse"};
+/// @param others names of scenes that a program has besides: all of their own species and positions
+inline void check(const BenchmarkChoice& choice, std::span<const std::string_view> others = {}) {
+    std::vector<std::string_view> known{"bed",  "clumps",      "wet-bed", "wet-walls",   "sprayed-bed",
+                                        "drum", "penetration", "gas",     "polydisperse"};
+    known.insert(known.end(), others.begin(), others.end());
     if (std::find(known.begin(), known.end(), choice.scene) == known.end())
         unknownName("scene", choice.scene, known);
     if (choice.particles > 0) checkNumberOfGrains("benchmark-scenes", choice.particles);
@@ -210,7 +213,8 @@ inline void check(const BenchmarkChoice& choice) {
             "benchmark-scenes: the scene {} needs both positions and walls, or neither.", choice.scene));
     if (!choice.walls.empty() && !hasMesh)
         throw InputError(fmt::format("benchmark-scenes: the scene {} takes no walls.", choice.scene));
-    if ((hasMesh || choice.scene == "wet-walls") && !choice.species.empty())
+    const bool isOther = std::find(others.begin(), others.end(), choice.scene) != others.end();
+    if ((hasMesh || isOther || choice.scene == "wet-walls") && !choice.species.empty())
         throw InputError(fmt::format("benchmark-scenes: the scene {} has its own species.", choice.scene));
 }
 

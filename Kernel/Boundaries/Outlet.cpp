@@ -175,8 +175,9 @@ void OutletHandler::findGrains(const ParticleStore& grains, std::span<const std:
             for (std::size_t k = begin; k < end; ++k)
                 for (std::uint32_t o = 0; o < outlets.size(); ++o) {
                     const TranslationRecord& grain = grains.translation[k];
-                    if (grain.radius == 0 || grain.inverseMass == 0 || grains.identity[k] >= tooYoung[o] ||
-                        !outlets[o].takes(grain.position))
+                    // The place first: it lets nearly all stay, and what else is asked lies in other columns.
+                    if (!outlets[o].takes(grain.position)) continue;
+                    if (grain.radius == 0 || grain.inverseMass == 0 || grains.identity[k] >= tooYoung[o])
                         continue;
                     if (grains.bodies.contains(grains.identity[k])) break;
                     found[static_cast<std::size_t>(part)].push_back({grains.identity[k], o});

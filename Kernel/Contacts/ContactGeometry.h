@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/HeldMasses.h"
 #include "Kernel/Contacts/Prefetch.h"
@@ -45,6 +48,12 @@ struct ContactAcceleration {
     static_assert(sizeof(Vector<double>) == 3 * sizeof(double));
     auto [x, y, z] = loadVectors(reinterpret_cast<const double*>(column), index);
     return {x, y, z};
+}
+
+/// The smallest of eight numbers.
+[[nodiscard]] inline double smallestOf(const Pack& numbers) {
+    const std::array<double, Pack::lanes> lanes = numbers.toLanes();
+    return *std::min_element(lanes.begin(), lanes.end());
 }
 
 /// Asks for what the kernel reads of eight grains.
@@ -103,6 +112,12 @@ struct PairGeometry {
     /// @param gap m
     [[nodiscard]] Mask isWithin(double gap) const {
         return distance2 < square(radius1 + radius2 + Pack(gap));
+    }
+    /// m, by how much the grains of each pair must approach at least until they are within a gap (m): by a
+    /// hundred-millionth of their radii less than that, because positions are rounded in each step.
+    /// (WallGeometry has none: a wall tells only the points that are near.)
+    [[nodiscard, gnu::always_inline]] Pack approachUntilWithin(double gap) const {
+        return sqrt(distance2) - fma(Pack(1e-8), radius1 + radius2, radius1 + radius2 + Pack(gap));
     }
 
     [[nodiscard, gnu::always_inline]] ContactGeometry<Pack> complete() const {

@@ -72,7 +72,8 @@ public:
     /// The overlaps and capillary numbers of the contacts that this kernel has computed.
     OverlapWatch overlaps;
     CapillaryWatch capillaryNumbers;
-    double springsAhead = 0;  // s, as of ContactTask
+    double springsAhead = 0;           // s, as of ContactTask
+    double unlisted = 0, longest = 0;  // m, the same
 
     /// @return false if the block needs memory first; it is marked then
     /// @param geometryOf (block) its geometry, which is made in here: what would come from outside, or be
@@ -92,6 +93,9 @@ public:
                 joined = joined | (listed & geometry.isWithin(laws.adhesion.filmContactGap));
         if (none(joined)) {
             clear(block, state);
+            if constexpr (requires { geometry.approachUntilWithin(0.0); })
+                if (block == ContactStore::asleep)
+                    sleepOn(number, copyOf(geometry.approachUntilWithin(gapOfFirstForce())));
             return true;
         }
         if (block == ContactStore::asleep) {
@@ -664,6 +668,18 @@ private:
     static Vector<Pack> zero() { return {Pack(0), Pack(0), Pack(0)}; }
     static bool laneOf(Mask mask, int k) { return (bits(mask) >> k & 1) != 0; }
     static Vector<double> laneOf(const Vector<Pack>& v, int k) { return {v.x[k], v.y[k], v.z[k]}; }
+
+    /// m, the largest gap at which two bodies that have not touched can begin to act on each other.
+    [[nodiscard]] double gapOfFirstForce() const {
+        if constexpr (HasFilmContactGap<Adhesion>) return std::max(laws.adhesion.filmContactGap, 0.0);
+        else return 0;
+    }
+    /// A block without memory in which nothing acts yet: it is looked at again when two of its bodies can
+    /// have approached by the least (m) of what theirs have left. A list does not last longer than for its
+    /// skin, and where images move `unlisted` counts only for bodies that are not farther apart than it.
+    [[gnu::noinline]] void sleepOn(std::size_t number, const Pack& left) {
+        store.gaps[number] = unlisted + std::min(longest, smallestOf(left));
+    }
 
     /// A block in which nothing touches or joins any more: its memory and its forces become zero, once.
     void clear(std::size_t block, BlockState& state) {

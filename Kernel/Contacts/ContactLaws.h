@@ -56,6 +56,7 @@ struct ContactTask {
     double step;              // s
     ContactTiming timing;
     double unlisted;   // m, that bodies can have approached since they were listed
+    double longest;    // m, of it until contacts are listed again
     bool withSamples;  // what the ledger reads of contacts is written
     bool asksAhead;    // grains and contacts may be far away, and are asked for before they are read
     OverlapWatch* overlaps;

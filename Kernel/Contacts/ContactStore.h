@@ -61,9 +61,16 @@ struct WallPointColumns {
         store(velocity, velocities);
         distances.store(distance.lane.data());
     }
+    [[nodiscard]] Vector<double> normalAt(std::size_t lane) const { return vectorAt(normal, lane); }
     /// m/s
-    [[nodiscard]] Vector<double> velocityAt(std::size_t lane) const {
-        return {velocity[0].lane[lane], velocity[1].lane[lane], velocity[2].lane[lane]};
+    [[nodiscard]] Vector<double> velocityAt(std::size_t lane) const { return vectorAt(velocity, lane); }
+    [[nodiscard]] WallPoint pointAt(std::size_t lane) const {
+        return {normalAt(lane), distance.lane[lane], velocityAt(lane)};
+    }
+
+private:
+    static Vector<double> vectorAt(const std::array<LaneColumn, 3>& columns, std::size_t lane) {
+        return {columns[0].lane[lane], columns[1].lane[lane], columns[2].lane[lane]};
     }
 };
 
@@ -266,8 +273,9 @@ public:
     bool keepsTotals = false;    // the kernel sums forces
     mutable ForceTotals totals;  // whoever moves the grains takes them
     /// The gap (m) of each block: while no two bodies have approached by this since they were listed, nothing
-    /// in it can begin to touch, or to form a bridge at its filmContactGap. It has no meaning for blocks with
-    /// memory.
+    /// in it can begin to touch, or to form a bridge at its filmContactGap. A block that is looked at after
+    /// that, and in which nothing has begun, gets a new one from where its bodies are then; superquadrics
+    /// keep that of the list. It has no meaning for blocks with memory.
     std::vector<double> gaps;
 
     [[nodiscard]] std::size_t blockCount() const { return blocks.size(); }

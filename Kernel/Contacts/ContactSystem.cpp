@@ -625,12 +625,26 @@ bool ContactSystem::computeBlocks(const Grains& grains, double step, ContactTimi
     const bool asksAhead = (threads > 1 && !helpersRest()) || contacts.bytes() + grains.bytes() > cache;
     const HeldInContacts held{grains.held.empty() ? nullptr : grains.held.data(),
                               heldMasses.empty() ? nullptr : heldMasses.data()};
-    return species->compute({contacts, grains.translation.data(), grains.rotation.data(),
-                             grains.acceleration.data(), held.any() ? &held : nullptr, periodic, number,
-                             begin, end,
+    return species->compute({contacts,
+                             grains.translation.data(),
+                             grains.rotation.data(),
+                             grains.acceleration.data(),
+                             held.any() ? &held : nullptr,
+                             periodic,
+                             number,
+                             begin,
+                             end,
                              bucket.wall >= 0 ? wallOf(bucket).angularVelocity() : Vector<double>{0, 0, 0},
-                             step, timing, unlisted, hasSamples(bucket), asksAhead, by.overlaps,
-                             by.capillaryNumbers, by.totals, by.springsAhead});
+                             step,
+                             timing,
+                             unlisted,
+                             skin.width(),
+                             hasSamples(bucket),
+                             asksAhead,
+                             by.overlaps,
+                             by.capillaryNumbers,
+                             by.totals,
+                             by.springsAhead});
 }
 /// Blocks are independent: each writes only its own memory and records, and adds to the totals of its
 /// thread. A thread takes so many at once that

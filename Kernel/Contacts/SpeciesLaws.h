@@ -233,6 +233,8 @@ protected:
                                 task.overlaps->part(overlapLimit.largest), task.store, task.acceleration,
                                 task.totals, task.withSamples);
         kernel.springsAhead = task.springsAhead;
+        kernel.unlisted = unlisted;
+        kernel.longest = task.longest;
         bool all = true;
         for (std::size_t b = task.begin, end = task.end; b < end; ++b)
             if (slots[b] != ContactStore::asleep || unlisted > gaps[b]) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "Kernel/Base/Parallel.h"
@@ -40,13 +41,27 @@ public:
             while (c > first && c < end && grainOf(contacts, c) == grainOf(contacts, c - 1)) ++c;
             return c;
         };
+        const bool findsEight = wall.findsEight() && !laws.shapes();
         handOvers.resize(static_cast<std::size_t>(threads));
         for (std::vector<HandOver>& own : handOvers) own.clear();
         inParts(
             end - first, threads,
             [&](int part, std::size_t from, std::size_t to) {
-                findPart(contacts, grains, bucket, wall, laws, step, atNextGrain(first + from),
-                         atNextGrain(first + to), handOvers[static_cast<std::size_t>(part)]);
+                const std::size_t last = atNextGrain(first + to);
+                std::vector<HandOver>& found = handOvers[static_cast<std::size_t>(part)];
+                for (std::size_t c = atNextGrain(first + from); c < last;) {
+                    std::size_t next = last;
+                    if (findsEight) {
+                        if (isBlockOfSingles(contacts, c, first, last, end)) {
+                            findAtBlock(contacts, grains, bucket, wall, step, c / Pack::lanes);
+                            c += Pack::lanes;
+                            continue;
+                        }
+                        next = std::min(last, atNextGrain((c / Pack::lanes + 1) * Pack::lanes));
+                    }
+                    findPart(contacts, grains, bucket, wall, laws, step, c, next, found);
+                    c = next;
+                }
             },
             worthAThread);
         if (handsOver) handOver(contacts, laws, handOvers, wake);
@@ -64,22 +79,56 @@ private:
         const auto* const base = reinterpret_cast<const double*>(grains.translation.data());
         const auto [x, y, z] = loadRecords<3>(base, 8, first);
         const auto [vx, vy, vz] = loadRecords<3>(base + 4, 8, first);
-        const Vector<Pack> normal = toAllLanes(plane.grains.normal),
-                           surface = toAllLanes(plane.surfaceVelocity);
+        const Vector<Pack> normal = inAllLanes<Pack>(plane.grains.normal),
+                           surface = inAllLanes<Pack>(plane.surfaceVelocity);
         const Pack distance = Pack(plane.grains.offset) - dot(normal, Vector<Pack>{x, y, z});
         contacts.wallPoints[block - contacts.firstWallBlock()].set(normal, surface, distance);
-
         const Vector<Pack> way = Pack(step) * (Vector<Pack>{vx, vy, vz} - surface);
-        const Mask near =
-            maskFromBits(contacts.states[block].listed) & (distance * abs(distance) <= squaredNorm(way));
-        if (none(near)) return;
-        for (std::size_t lane = 0; lane < Pack::lanes; ++lane)
-            if (near[lane])
-                refuseCrossing(wall, bucket.wall, grains.translation[first[lane]],
-                               grains.identity[first[lane]],
-                               {plane.grains.normal, distance[lane], plane.surfaceVelocity}, step);
+        refuseCrossings(contacts, grains, bucket, wall, step, block,
+                        distance * abs(distance) <= squaredNorm(way));
     }
-    static Vector<Pack> toAllLanes(const Vector<double>& v) { return {Pack(v.x), Pack(v.y), Pack(v.z)}; }
+    /// Throws where a grain of a block has gone through the wall, as refuseCrossing().
+    /// @param near those that are nearer to the wall than their way in this step
+    static void refuseCrossings(const ContactStore& contacts, const Grains& grains, const Bucket& bucket,
+                                const Wall& wall, double step, std::size_t block, Mask near) {
+        const std::uint8_t asked = bits(near) & contacts.states[block].listed;
+        if (asked == 0) return;
+        const WallPointColumns& points = contacts.wallPoints[block - contacts.firstWallBlock()];
+        for (std::size_t lane = 0; lane < Pack::lanes; ++lane) {
+            if ((asked >> lane & 1) == 0) continue;
+            const std::uint32_t grain = contacts.blocks[block].first[lane];
+            refuseCrossing(wall, bucket.wall, grains.translation[grain], grains.identity[grain],
+                           points.pointAt(lane), step);
+        }
+    }
+
+    /// Whether a block begins at this contact in which no two contacts are of one grain, nor with those
+    /// before and after it: no other part of the wall then covers one of them.
+    /// @param first, end of the contacts of the bucket; @param last those to be found end there
+    static bool isBlockOfSingles(const ContactStore& contacts, std::size_t c, std::size_t first,
+                                 std::size_t last, std::size_t end) {
+        if (c % Pack::lanes != 0 || (c + Pack::lanes > last && last < end)) return false;
+        const std::size_t from = c > first ? c - 1 : c, to = std::min(c + Pack::lanes, end - 1);
+        bool areSingles = true;
+        for (std::size_t k = from; k < to; ++k)
+            areSingles &= grainOf(contacts, k) != grainOf(contacts, k + 1);
+        return areSingles;
+    }
+    /// The points of the eight contacts of such a block.
+    static void findAtBlock(ContactStore& contacts, const Grains& grains, const Bucket& bucket,
+                            const Wall& wall, double step, std::size_t block) {
+        const ContactBlock& contact = contacts.blocks[block];
+        const auto* const base = reinterpret_cast<const double*>(grains.translation.data());
+        const auto [x, y, z] = loadRecords<3>(base, 8, contact.first.data());
+        const auto [vx, vy, vz] = loadRecords<3>(base + 4, 8, contact.first.data());
+        EightWallPoints points;
+        wall.findEight({x, y, z}, contact.second, points);
+        contacts.wallPoints[block - contacts.firstWallBlock()].set(points.normal, points.velocity,
+                                                                   points.distance);
+        const Vector<Pack> way = Pack(step) * (Vector<Pack>{vx, vy, vz} - points.velocity);
+        refuseCrossings(contacts, grains, bucket, wall, step, block,
+                        !(points.distance * abs(points.distance) > squaredNorm(way)));
+    }
 
     /// Finds the points of the contacts [c, end), which begin with a grain's first.
     static void findPart(ContactStore& contacts, const Grains& grains, const Bucket& bucket, const Wall& wall,

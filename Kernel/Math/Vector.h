@@ -51,6 +51,12 @@ struct Vector {
     }
 };
 
+/// The same vector in each lane.
+template <Number T>
+[[gnu::always_inline]] inline Vector<T> inAllLanes(const Vector<double>& v) {
+    return {T(v.x), T(v.y), T(v.z)};
+}
+
 /// The components of a vector by the number of their axis: vector.*vectorAxes[0] is x.
 inline constexpr std::array<double Vector<double>::*, 3> vectorAxes{&Vector<double>::x, &Vector<double>::y,
                                                                     &Vector<double>::z};

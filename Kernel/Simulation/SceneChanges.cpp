@@ -91,6 +91,7 @@ void Scene::Inside::takeOverChanges() {
         if (!newLaws && !changedWalls && !newStep && !lastBodyWent && !newHeld &&
             !ParticleHandler::Inside::hasChanges(particles))
             return;
+        overlapsAreSeen = false;
         GrainChanges changes = ParticleHandler::Inside::takeChanges(particles);
         if (isDistributed()) {
             if (newLaws || changedWalls || newStep) refuseForRanks(changes, true);

@@ -153,16 +153,40 @@ static void refuseDeepOverlap(const ParticleStore& grains, std::uint32_t first, 
         100 * overlap / smaller, 100 * largestShare, ofPair.overlapAdvice));
 }
 
+/// The lanes of a block in which spheres overlap by more than a share of the smaller radius.
+static unsigned lanesDeeperThan(double share, const ContactBlock& block, const ParticleStore& grains,
+                                const PeriodicBox& box) {
+    const auto* const base = reinterpret_cast<const double*>(grains.translation.data());
+    const auto [x1, y1, z1, r1] = loadRecords<4>(base, 8, block.first.data());
+    const auto [x2, y2, z2, r2] = loadRecords<4>(base, 8, block.second.data());
+    const Pack nearest = r1 + r2 - Pack(share) * min(r1, r2);
+    return bits(squaredNorm(box.nearest(Vector<Pack>{x2 - x1, y2 - y1, z2 - z1})) < nearest * nearest);
+}
+
+double leastDeepOverlap(const ContactStore& store, const ContactLaws& laws) {
+    double least = infinity;
+    for (const Bucket& bucket : store.buckets)
+        if (bucket.wall < 0)
+            least = std::min(least, laws.ofPair(bucket.species1, bucket.species2).largestOverlapInRun);
+    return least;
+}
+
 void refuseDeepOverlaps(const ContactStore& store, const ParticleStore& grains, const PeriodicBox& box,
                         const ContactLaws& laws, double time) {
-    store.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
-        if (bucket.wall >= 0) return;
-        const ContactBlock& block = store.blocks[contact / Pack::lanes];
-        if (areHeld(grains, bucket, block.first[contact % Pack::lanes], block.second[contact % Pack::lanes]))
-            return;
-        refuseDeepOverlap(grains, block.first[contact % Pack::lanes], block.second[contact % Pack::lanes],
-                          box, laws, laws.ofPair(bucket.species1, bucket.species2), time);
-    });
+    for (const Bucket& bucket : store.buckets) {
+        if (bucket.wall >= 0) continue;
+        const ContactLaws& ofPair = laws.ofPair(bucket.species1, bucket.species2);
+        for (std::uint32_t b = bucket.begin; b < bucket.end; ++b) {
+            const ContactBlock& block = store.blocks[b];
+            unsigned deep = store.states[b].listed;
+            if (deep != 0 && !laws.shapes())
+                deep &= lanesDeeperThan(ofPair.largestOverlapInRun, block, grains, box);
+            for (std::size_t lane = 0; deep >> lane != 0; ++lane)
+                if ((deep >> lane & 1) != 0 &&
+                    !areHeld(grains, bucket, block.first[lane], block.second[lane]))
+                    refuseDeepOverlap(grains, block.first[lane], block.second[lane], box, laws, ofPair, time);
+        }
+    }
 }
 
 void refuseFarFaces(const PeriodicBox& box, double smallestRadius) {

@@ -24,6 +24,10 @@ std::string remarkOnHeldOverlaps(const ContactSystem& contacts, const ParticleSt
 void refuseDeepOverlaps(const ContactStore& store, const ParticleStore& grains, const PeriodicBox& box,
                         const ContactLaws& laws, double time);
 
+/// The smallest overlap, over the smaller radius, that ends a run at one of the listed contacts of two
+/// grains; infinite without any.
+double leastDeepOverlap(const ContactStore& store, const ContactLaws& laws);
+
 /// Throws InputError if a face of a scene that repeats itself is so far away that grains there are not
 /// resolved.
 /// @param smallestRadius m

@@ -138,6 +138,7 @@ public:
     double acceptedOverlap = largestSoundOverlap;  // of the smaller radius
     double gapOfFirstBridges = 0;                  // m
     double approachUnseen = 0;                     // m, of two grains since deep overlaps were looked for
+    bool overlapsAreSeen = false;                  // by the last forces: no body was changed since
     bool speciesChanged = false;                   // since the run began
     bool gravityChanged = false;                   // since the run began
     bool heldContactsChanged = false;              // setHeldContacts(), since the run began
@@ -170,6 +171,10 @@ private:
     /// Whenever grains can have approached by a tenth of the smallest radius: nothing that lasts goes deeper
     /// unseen by more. It does not depend on when contacts are listed.
     void lookForDeepOverlaps(const ParticleStore& grains, double approach);
+    /// Whether two grains can overlap so deeply now that it ends the run, by what the forces have seen. All
+    /// ranks ask together.
+    /// @param approach m, of two grains in this step
+    [[nodiscard]] bool canOverlapDeeply(double approach) const;
     void warnOfOverlaps() const;
     /// Brings grains that have left a periodic scene back into it; at fixed steps, so that no bit depends on
     /// when contacts are listed.

@@ -128,6 +128,7 @@ void Scene::Inside::findForces(StepContext& step) {
     ContactTiming timing = contactScheme(step).contacts;
     timing.comingStep = stepLength();
     contacts.computePairForces(grains, step.length, timing);
+    overlapsAreSeen = true;
     step.times.enter(StepTimes::Part::Walls);
     contacts.computeWallForces(grains, step.length, timing);
 }
@@ -175,7 +176,17 @@ void Scene::Inside::lookForDeepOverlaps(const ParticleStore& grains, double appr
     approachUnseen = 0;
     refuseFarGrains(grains, context.time);
     warnOfOverlaps();
-    refuseDeepOverlaps(contacts.store(), grains, box, laws(), context.time);
+    if (canOverlapDeeply(approach)) refuseDeepOverlaps(contacts.store(), grains, box, laws(), context.time);
+}
+
+/// A contact that overlapped by d at the last forces overlaps by at most d + approach now. The watch has the
+/// largest d / R*, and R* is not larger than the smaller radius: d + approach is at most the sum below times
+/// this radius. 1e-9 is for rounding. Superquadrics also turn into each other.
+bool Scene::Inside::canOverlapDeeply(double approach) const {
+    if (laws().shapes()) return true;
+    const double seen = overlapsAreSeen ? contacts.ownOverlaps().largestOverlap() : infinity,
+                 most = contacts.ranks().largest(seen) + approach / context.smallestRadius;
+    return !(most < (1 - 1e-9) * leastDeepOverlap(contacts.store(), laws()));
 }
 
 /// On several ranks, each of which has seen some contacts only, the end of the run tells.

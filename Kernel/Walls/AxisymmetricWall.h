@@ -4,11 +4,13 @@
 
 namespace pendular {
 
-/// A point of a profile: distance from the axis and place along it.
-struct ProfilePoint {
-    double radius;  // m
-    double height;  // m
+/// A point of the plane of a profile, or eight: distance from the axis and place along it.
+template <class T>
+struct ProfilePlace {
+    T radius;  // m
+    T height;  // m
 };
+using ProfilePoint = ProfilePlace<double>;
 
 /// A thin surface of revolution: a polyline of (radius, height) turned about an axis. A cone, a hopper, a
 /// tube, a disc, a closed drum. Grains may lie on both sides of it, and meet its rims.
@@ -28,28 +30,44 @@ protected:
     void listInBody(const Vector<double>& centre, double reach,
                     std::vector<std::uint32_t>& parts) const override;
     void findInBody(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
-                    std::span<WallPoint> points) const override;
+                    std::span<WallPoint> points) const final;
+    [[nodiscard]] bool findsEightInBody() const override { return true; }
+    void findEightInBody(const Vector<Pack>& centres, const std::array<std::uint32_t, Pack::lanes>& parts,
+                         EightWallPoints& points) const final;
     [[nodiscard]] bool isCrossedInBody(const Vector<double>& from, const Vector<double>& to) const override;
     [[nodiscard]] SurfaceExtent extent() const override;
     [[nodiscard]] WallSurface surfaceInBody(const SceneSphere& around) const override;
     void visitShape(StateArchive& archive) const override;
 
 private:
+    /// The plane of the axis and a centre.
+    template <Number T>
     struct Meridian {
-        double r, z;            // m
-        Vector<double> radial;  // unit, from the axis to the centre
+        ProfilePlace<T> centre;
+        Vector<T> radial;  // unit, from the axis to the centre
     };
+    template <Number T>
     struct Segment {
-        ProfilePoint begin, end;
+        ProfilePlace<T> begin, end;
     };
-    [[nodiscard]] Meridian meridianOf(const Vector<double>& centre) const;
-    [[nodiscard]] Segment segmentOf(std::uint32_t part) const;
-    [[nodiscard]] bool acts(std::uint32_t part, const Meridian& at) const;
+    template <Number T>
+    struct NearestPoint {
+        Vector<T> normal;  // unit, into the wall
+        T distance;        // m
+    };
+    template <Number T>
+    [[nodiscard]] Meridian<T> meridianOf(const Vector<T>& centre) const;
+    [[nodiscard]] Segment<double> segmentOf(std::uint32_t part) const;
+    [[nodiscard]] Segment<Pack> segmentsOf(const std::array<std::uint32_t, Pack::lanes>& parts) const;
+    template <Number T>
+    [[nodiscard]] NearestPoint<T> nearestPoint(const Segment<T>& segment, const Meridian<T>& at) const;
+    [[nodiscard]] bool acts(std::uint32_t part, const Meridian<double>& at) const;
     [[nodiscard]] bool holds(std::uint32_t part, const ProfilePoint& point, double tolerance) const;
     [[nodiscard]] bool meetSmoothly(std::uint32_t part1, std::uint32_t part2) const;
 
     Vector<double> axis{0, 0, 1};
-    Vector<double> origin{0, 0, 0};  // m
+    Vector<double> origin{0, 0, 0};        // m
+    Vector<double> radialOnAxis{0, 1, 0};  // unit, where no direction across the axis is that of a centre
     std::vector<ProfilePoint> profile;
 };
 

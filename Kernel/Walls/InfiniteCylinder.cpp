@@ -11,6 +11,7 @@ namespace pendular {
 void InfiniteCylinder::set(const Vec3D& direction, const Vec3D& point, double radius, CylinderSide side) {
     axis = checkedDirection("InfiniteCylinder", "length of the axis' direction", direction);
     origin = checkedVector("InfiniteCylinder", "point", point, "m");
+    radialOnAxis = anyAcross(axis);
     checkValue("InfiniteCylinder", "radius", radius, "m", positive);
     cylinderRadius = radius;
     inside = side == CylinderSide::Inside;
@@ -28,10 +29,16 @@ void InfiniteCylinder::listInBody(const Vector<double>& centre, double reach,
 
 void InfiniteCylinder::findInBody(const Vector<double>& centre, double, std::span<const std::uint32_t>,
                                   std::span<WallPoint> points) const {
-    const Vector<double> radial = across(centre);
-    const double r = norm(radial);
-    const Vector<double> outward = r > 0 ? (1 / r) * radial : anyAcross(axis);
-    points[0] = {inside ? outward : -outward, gap(r), {0, 0, 0}};
+    const auto [normal, distance] = nearestTo(centre);
+    points[0] = {normal, distance, {0, 0, 0}};
+}
+
+void InfiniteCylinder::findEightInBody(const Vector<Pack>& centres,
+                                       const std::array<std::uint32_t, Pack::lanes>&,
+                                       EightWallPoints& points) const {
+    const auto [normal, distance] = nearestTo(centres);
+    points.normal = normal;
+    points.distance = distance;
 }
 
 bool InfiniteCylinder::isCrossedInBody(const Vector<double>& from, const Vector<double>& to) const {

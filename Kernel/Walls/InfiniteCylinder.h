@@ -23,6 +23,9 @@ protected:
                     std::vector<std::uint32_t>& parts) const override;
     void findInBody(const Vector<double>& centre, double, std::span<const std::uint32_t>,
                     std::span<WallPoint> points) const override;
+    [[nodiscard]] bool findsEightInBody() const override { return true; }
+    void findEightInBody(const Vector<Pack>& centres, const std::array<std::uint32_t, Pack::lanes>&,
+                         EightWallPoints& points) const override;
     [[nodiscard]] bool isCrossedInBody(const Vector<double>& from, const Vector<double>& to) const override;
     [[nodiscard]] SurfaceExtent extent() const override;
     [[nodiscard]] WallSurface surfaceInBody(const SceneSphere& around) const override;
@@ -30,15 +33,32 @@ protected:
     void visitShape(StateArchive& archive) const override;
 
 private:
-    [[nodiscard]] Vector<double> across(const Vector<double>& centre) const {
-        const Vector<double> relative = centre - origin;
-        return relative - dot(relative, axis) * axis;
+    template <Number T>
+    struct NearestPoint {
+        Vector<T> normal;  // unit, into the wall
+        T distance;        // m
+    };
+    template <Number T>
+    [[nodiscard]] Vector<T> across(const Vector<T>& centre) const {
+        const Vector<T> relative = centre - inAllLanes<T>(origin), along = inAllLanes<T>(axis);
+        return relative - dot(relative, along) * along;
     }
-    [[nodiscard]] double gap(double r) const { return inside ? cylinderRadius - r : r - cylinderRadius; }
+    template <Number T>
+    [[nodiscard]] T gap(const T& r) const {
+        return inside ? T(cylinderRadius) - r : r - T(cylinderRadius);
+    }
+    template <Number T>
+    [[nodiscard]] NearestPoint<T> nearestTo(const Vector<T>& centre) const {
+        const Vector<T> radial = across(centre);
+        const T r = norm(radial);
+        const Vector<T> outward = select(r > T(0), (T(1) / r) * radial, inAllLanes<T>(radialOnAxis));
+        return {inside ? outward : -outward, gap(r)};
+    }
 
     Vector<double> axis{0, 0, 1};
     Vector<double> origin{0, 0, 0};  // m
-    double cylinderRadius = 0;       // m
+    Vector<double> radialOnAxis{0, 1, 0};
+    double cylinderRadius = 0;  // m
     bool inside = true;
 };
 

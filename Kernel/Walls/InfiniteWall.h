@@ -57,6 +57,12 @@ protected:
                     std::span<WallPoint> points) const override {
         points[0] = {normal, gap(centre), {0, 0, 0}};
     }
+    [[nodiscard]] bool findsEightInBody() const override { return true; }
+    void findEightInBody(const Vector<Pack>& centres, const std::array<std::uint32_t, Pack::lanes>&,
+                         EightWallPoints& points) const override {
+        points.normal = inAllLanes<Pack>(normal);
+        points.distance = gap(centres);
+    }
     [[nodiscard]] std::optional<HalfSpace> planeInBody() const override { return {{normal, offset}}; }
     [[nodiscard]] bool isCrossedInBody(const Vector<double>& from, const Vector<double>& to) const override {
         return gap(from) >= 0 && gap(to) < 0;
@@ -71,7 +77,10 @@ protected:
 
 private:
     void setDrive(const PlaneDriveSettings& asked);
-    [[nodiscard]] double gap(const Vector<double>& centre) const { return offset - dot(normal, centre); }
+    template <Number T>
+    [[nodiscard]] T gap(const Vector<T>& centre) const {
+        return T(offset) - dot(inAllLanes<T>(normal), centre);
+    }
 
     Vector<double> normal{0, 0, -1};
     double offset = 0;  // m

@@ -18,15 +18,21 @@ struct Pose {
     [[nodiscard]] static Pose turnedAbout(const Vector<double>& axis, const Vector<double>& point,
                                           double angle);
 
-    [[nodiscard]] Vector<double> turn(const Vector<double>& v) const {
-        return v.x * column[0] + v.y * column[1] + v.z * column[2];
+    // Of one vector, or of eight (T = Pack).
+    template <Number T = double>
+    [[nodiscard]] Vector<T> turn(const Vector<T>& v) const {
+        return v.x * inAllLanes<T>(column[0]) + v.y * inAllLanes<T>(column[1]) +
+               v.z * inAllLanes<T>(column[2]);
     }
-    [[nodiscard]] Vector<double> turnBack(const Vector<double>& v) const {
-        return {dot(column[0], v), dot(column[1], v), dot(column[2], v)};
+    template <Number T = double>
+    [[nodiscard]] Vector<T> turnBack(const Vector<T>& v) const {
+        return {dot(inAllLanes<T>(column[0]), v), dot(inAllLanes<T>(column[1]), v),
+                dot(inAllLanes<T>(column[2]), v)};
     }
     [[nodiscard]] Vector<double> place(const Vector<double>& point) const { return turn(point) + shift; }
-    [[nodiscard]] Vector<double> placeBack(const Vector<double>& point) const {
-        return turnBack(point - shift);
+    template <Number T = double>
+    [[nodiscard]] Vector<T> placeBack(const Vector<T>& point) const {
+        return turnBack(point - inAllLanes<T>(shift));
     }
     /// First the other placement, then this one.
     [[nodiscard]] Pose after(const Pose& first) const {
@@ -51,7 +57,10 @@ struct RigidVelocity {
     Vector<double> spin{0, 0, 0};    // rad/s
     Vector<double> point{0, 0, 0};   // m
 
-    [[nodiscard]] Vector<double> at(const Vector<double>& x) const { return linear + cross(spin, x - point); }
+    template <Number T = double>
+    [[nodiscard]] Vector<T> at(const Vector<T>& x) const {
+        return inAllLanes<T>(linear) + cross(inAllLanes<T>(spin), x - inAllLanes<T>(point));
+    }
 };
 
 /// Which points of a surface there are, and which motions carry it into itself: from these follows how far a

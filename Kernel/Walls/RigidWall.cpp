@@ -18,7 +18,8 @@ constexpr double differenceInterval = 0x1p-24;
 
 /// The part of a velocity that is along a surface with this normal: the rest would do work on grains that the
 /// surface, which stays where it is, cannot do.
-Vector<double> alongSurface(const Vector<double>& velocity, const Vector<double>& normal) {
+template <Number T>
+Vector<T> alongSurface(const Vector<T>& velocity, const Vector<T>& normal) {
     return velocity - dot(velocity, normal) * normal;
 }
 
@@ -329,6 +330,21 @@ void RigidWall::findOwn(const Vector<double>& centre, double reach, std::span<co
         const double distance = std::isfinite(point.distance) ? point.distance : 0;
         point.velocity = velocity.at(centre + distance * point.normal) + alongSurface(belt, point.normal);
     }
+}
+
+/// The steps of findOwn().
+void RigidWall::findEight(const Vector<Pack>& centres, const std::array<std::uint32_t, Pack::lanes>& parts,
+                          EightWallPoints& points) const {
+    if (atRest) {
+        findEightInBody(centres, parts, points);
+        points.velocity = alongSurface(inAllLanes<Pack>(surfaceVelocity), points.normal);
+        return;
+    }
+    findEightInBody(pose.placeBack(centres), parts, points);
+    points.normal = pose.turn(points.normal);
+    const Pack distance = select(points.distance < Pack(infinity), points.distance, Pack(0));
+    points.velocity = velocity.at(centres + distance * points.normal) +
+                      alongSurface(inAllLanes<Pack>(pose.turn(surfaceVelocity)), points.normal);
 }
 
 bool RigidWall::isOwnCrossed(const Vector<double>& from, const Vector<double>& to) const {

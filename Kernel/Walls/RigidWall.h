@@ -78,6 +78,9 @@ public:
     void join(double time);
     void visitState(StateArchive& archive) override;
     [[nodiscard]] std::optional<PlaneAtRest> planeAtRest() const final;
+    [[nodiscard]] bool findsEight() const final { return !isRepeated() && findsEightInBody(); }
+    void findEight(const Vector<Pack>& centres, const std::array<std::uint32_t, Pack::lanes>& parts,
+                   EightWallPoints& points) const final;
     [[nodiscard]] Vector<double> angularVelocity() const final { return velocity.spin; }
     [[nodiscard]] WallSurface surface(const SceneSphere& around) const final;
     /// The answer is by the wall's extent: one that goes through a face is not looked at closer.
@@ -91,6 +94,11 @@ protected:
                             std::vector<std::uint32_t>& parts) const = 0;
     virtual void findInBody(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
                             std::span<WallPoint> points) const = 0;
+    /// A shape whose formula is short gives it for eight spheres, too; velocities are not looked at.
+    [[nodiscard]] virtual bool findsEightInBody() const { return false; }
+    virtual void findEightInBody(const Vector<Pack>& /*centres*/,
+                                 const std::array<std::uint32_t, Pack::lanes>& /*parts*/,
+                                 EightWallPoints& /*points*/) const {}
     [[nodiscard]] virtual std::optional<HalfSpace> planeInBody() const { return {}; }
     [[nodiscard]] virtual bool isCrossedInBody(const Vector<double>& from,
                                                const Vector<double>& to) const = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -24,6 +25,13 @@ struct WallPoint {
     double distance;          // m, from the centre to the surface; infinite: this part is not to be touched
     Vector<double> velocity;  // m/s, of the wall's surface there
     int coveredBy = -1;       // of an infinite distance: the place of the point that stands for it
+};
+
+/// The points that are nearest to eight spheres, one lane for each.
+struct EightWallPoints {
+    Vector<Pack> normal;
+    Pack distance;
+    Vector<Pack> velocity;
 };
 
 /// A side of a facet that no other one shares: where a mesh ends, or has a crack.
@@ -99,6 +107,14 @@ public:
     /// A wall that is nothing but a plane at rest: its points are found for eight grains at once, which gives
     /// the same bits as findPoints().
     [[nodiscard]] virtual std::optional<PlaneAtRest> planeAtRest() const { return {}; }
+
+    /// Whether findEight() knows its points.
+    [[nodiscard]] virtual bool findsEight() const { return false; }
+    /// What findPoints() finds for eight spheres, with the same bits. Each sphere has one part alone, so that
+    /// no other one covers it.
+    virtual void findEight(const Vector<Pack>& /*centres*/,
+                           const std::array<std::uint32_t, Pack::lanes>& /*parts*/,
+                           EightWallPoints& /*points*/) const {}
 
     /// The unit normal of a part that is a facet of a mesh, which may stand for a curved surface; none for
     /// others.

@@ -9,6 +9,7 @@
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/SharedData.h"
 #include "SelfTests/Support/TemporaryFile.h"
+#include "SelfTests/Support/TestFolder.h"
 
 namespace pendular::benchmarkProgramTest {
 namespace {
@@ -52,6 +53,28 @@ TEST(BenchmarkProgram, printsARowOfItsColumns) {
     EXPECT_EQ(of("state_hash").size(), 16u);
 }
 
+/// Grains of soft material in flow, from a start that is kept as a file for LIGGGHTS.
+TEST(BenchmarkProgram, hasADrumAndAHopperInFlow) {
+    const support::TestFolder folder;
+    for (const std::string scene : {"flowing-drum", "flowing-hopper"}) {
+        std::string first;
+        for (const char* again : {"", " --threads 2"}) {
+            const support::ProgramResult run =
+                benchmark("--scene " + scene + " --particles 300 --steps 40 --warm 10 --states " +
+                          folder.path().string() + again);
+            ASSERT_EQ(run.exitCode, 0) << run.output;
+            const std::vector<std::string> value = cells(run.output);
+            EXPECT_EQ(value.at(0), scene);
+            EXPECT_NEAR(std::stod(value.at(2)), 300, 100);
+            // In flow: some are faster than 0.02 m/s in the mean; of 4.2e-9 m^3 and 2500 kg/m^3 at most.
+            EXPECT_GT(std::stod(value.at(11)), 300 * 0.5 * 1e-5 * 0.02 * 0.02);
+            if (first.empty()) first = value.at(12);
+            EXPECT_EQ(value.at(12), first);  // the hash of the state
+        }
+        EXPECT_TRUE(std::filesystem::exists(folder.path() / (scene + "-300.data")));
+    }
+}
+
 TEST(BenchmarkProgram, refusesWithOneSentence) {
     const auto expectRefusal = [](const std::string& arguments, const std::string& words) {
         support::expectOneSentence(benchmark(arguments), words);
@@ -62,6 +85,9 @@ TEST(BenchmarkProgram, refusesWithOneSentence) {
     expectRefusal("--scene drum --positions grains.txt", "both positions and walls");
     expectRefusal("--scene bed --walls walls.txt", "takes no walls");
     expectRefusal("--scene drum --species LinearViscoelasticSpecies", "has its own species");
+    expectRefusal("--scene flowing-drum --species LinearViscoelasticSpecies", "has its own species");
+    expectRefusal("--scene flowing-hopper --shear 5", "takes no shear");
+    expectRefusal("--scene flowing-hopper --grains", "prints no grains");
     expectRefusal("--scene bed --positions /nowhere/grains.txt", "/nowhere/grains.txt");
     expectRefusal("--scene clumps --clumps 2", "needs positions");
     expectRefusal("--scene gas --clumps 2", "takes no clumps");

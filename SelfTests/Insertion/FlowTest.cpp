@@ -1,12 +1,14 @@
 // Inlets that follow what moves, outlets that choose, what planes count, and scenes that live on all three.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
 
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "SelfTests/Insertion/FilledScene.h"
 #include "SelfTests/Restart/StateContent.h"
+#include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
@@ -94,6 +96,56 @@ TEST(Outlet, letsGoWhatIsOldEnough) {
             ASSERT_EQ(scene.particleHandler.contains(identity), k - step < oldest) << identity << " at " << k;
     }
     EXPECT_GT(scene.outletHandler.removedNumber(), 70u);
+}
+
+/// The reference asks all grains that there were after a step, one after the other, for all that an outlet
+/// asks; the outlets cover each other, so that a grain goes through the first that takes it.
+TEST(Outlet, letsGoAsBruteForceDoes) {
+    FilledScene scene;
+    scene.setTimeStep(1e-5);
+    scene.acceptUnstableTimeStep();  // they are too small to meet each other
+    support::Random random(4);
+    constexpr std::uint32_t number = 240, held = 24;
+    for (std::uint32_t k = 0; k < number; ++k) {
+        SphericalParticle grain = scene.grain(random.inCube(2));
+        grain.setRadius(0.04 * d), grain.setPosition(random.inCube(10 * d));
+        if (k % (number / held) == 0) grain.fixParticle();
+        scene.particleHandler.copyAndAddObject(grain);
+    }
+    const BoxRegion box({-3 * d, -10 * d, -4 * d}, {8 * d, 2 * d, 5 * d});
+    const SphereRegion sphere({0, 0, 0}, 5 * d);
+    const double oldest = 50.5 * scene.getTimeStep();
+    const auto mayGo = [](std::uint32_t identity) { return identity % 3 != 0; };
+    Outlet plane, old, chosen, sides;
+    plane.setPlane({1, 2, 0}, {0, 6 * d, 0});
+    old.setRegion(box), old.setLeastAge(oldest);
+    chosen.setRegion(sphere), chosen.setCondition([&](const GrainReference& g) { return mayGo(g.getId()); });
+    sides.setPlane({0, 0, -1}, {0, 0, -9 * d});
+    for (const Outlet& outlet : {plane, chosen, old, sides}) scene.outletHandler.copyAndAddObject(outlet);
+    std::array<std::uint64_t, 4> expected{};
+    scene.initialise();
+    for (int step = 1; step <= 120; ++step) {
+        std::map<std::uint32_t, Vec3D> ends;  // where they will be: they fly freely
+        for (const GrainReference grain : scene.particleHandler)
+            ends[grain.getId()] = grain.getPosition() + scene.getTimeStep() * grain.getVelocity();
+        scene.step();
+        ASSERT_EQ(scene.contacts().counts().touching, 0u);
+        for (const auto& [identity, end] : ends) {
+            const bool isHeld = identity % (number / held) == 0;
+            int through = -1;
+            if (isHeld) through = -1;
+            else if (end.x() + 2 * end.y() > 12 * d) through = 0;
+            else if (sphere.contains(end) && mayGo(identity)) through = 1;
+            else if (box.contains(end) && step > 50) through = 2;
+            else if (end.z() < -9 * d) through = 3;
+            if (through >= 0) ++expected[static_cast<std::size_t>(through)];
+            ASSERT_EQ(scene.particleHandler.contains(identity), through < 0) << identity << " at " << step;
+        }
+    }
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        EXPECT_EQ(scene.outletHandler.countOf(k).all().number, expected[k]) << k;
+        EXPECT_GT(expected[k], 2u) << k;
+    }
 }
 
 TEST(Outlet, knowsAgesThroughARestart) { expectTheSameThroughARestart<Ageing>(450); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -81,6 +82,9 @@ void fill(BulkScene& scene, const Vec3D& low, const Vec3D& high, std::size_t num
         scene.grains.push_back(looseGrain(centre, random));
     }
 }
+inline std::size_t numberOf(std::size_t grains, double times) {
+    return static_cast<std::size_t>(std::lround(static_cast<double>(grains) * times));
+}
 inline const auto everywhere = [](const Vec3D&) { return true; };
 
 inline BulkScene bed(UniformRandom& random) {
@@ -97,35 +101,40 @@ inline BulkScene bed(UniformRandom& random) {
 }
 
 /// A smooth cylinder that carries the grains by its friction.
-inline BulkScene drum(UniformRandom& random) {
-    const double radius = 0.02, length = 8 * cell;
+/// @param times as many grains as in the comparison, about: in a drum that is longer and, less so, wider, and
+/// turns as fast over sqrt(g / radius)
+inline BulkScene drum(UniformRandom& random, double times = 1) {
+    const double radius = 0.02 * std::pow(times, 0.25), length = 8 * cell * std::sqrt(times);
     BulkScene scene{.name = "drum",
                     .endTime = 0.8,
                     .interval = 2.5e-3,
                     .measureFrom = 0.3,
-                    .lowest = {-0.021, -0.021, 0},
-                    .highest = {0.021, 0.021, length},
+                    .lowest = {-1.05 * radius, -1.05 * radius, 0},
+                    .highest = {1.05 * radius, 1.05 * radius, length},
                     .periodic = {false, false, true},
                     .up = 1,
                     .cylinder = radius,
-                    .spin = 5,
+                    .spin = 5 * std::sqrt(0.02 / radius),
                     .wallFriction = 1};
-    fill(scene, {-radius, -radius, 0}, {radius, radius, length}, 2000, random, [&](const Vec3D& c) {
-        const double reach = std::hypot(std::abs(c.x()) + 0.5 * cell, std::abs(c.y()) + 0.5 * cell);
-        return reach < radius && c.y() < 0.15 * radius;
-    });
+    fill(scene, {-radius, -radius, 0}, {radius, radius, length}, numberOf(2000, times), random,
+         [&](const Vec3D& c) {
+             const double reach = std::hypot(std::abs(c.x()) + 0.5 * cell, std::abs(c.y()) + 0.5 * cell);
+             return reach < radius && c.y() < 0.15 * radius;
+         });
     return scene;
 }
 
 /// Over a floor of held grains with a slit along y; between two planes along x.
-inline BulkScene hopper(UniformRandom& random) {
-    const double half = 0.018, slit = 0.0065, length = 5 * cell, r = PeerMaterial::radius;
+/// @param times as many grains as in the comparison: in one that is larger along all axes
+inline BulkScene hopper(UniformRandom& random, double times = 1) {
+    const double longer = std::cbrt(times), half = 0.018 * longer, slit = 0.0065 * std::pow(times, 1. / 12),
+                 length = 5 * cell * longer, height = 0.15 * longer, r = PeerMaterial::radius;
     BulkScene scene{.name = "hopper",
                     .endTime = 0.3,
                     .interval = 2e-3,
                     .measureFrom = 0.05,
                     .lowest = {-half, 0, -0.01},
-                    .highest = {half, length, 0.15},
+                    .highest = {half, length, height},
                     .periodic = {false, true, false},
                     .settles = true,
                     .drains = true};
@@ -134,7 +143,7 @@ inline BulkScene hopper(UniformRandom& random) {
         for (const double side : {-1.0, 1.0})
             for (int k = 0; k < across; ++k)
                 scene.grains.push_back(heldGrain(side * x, (k + 0.5) * length / across));
-    fill(scene, {-half, 0, 1.2 * r}, {half, length, 0.15}, 1500, random, everywhere);
+    fill(scene, {-half, 0, 1.2 * r}, {half, length, height}, numberOf(1500, times), random, everywhere);
     return scene;
 }
 
