@@ -230,6 +230,7 @@ std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts& r
     filmsReach = liquid.formsAtFilms(*species) ? 1.25 * liquid.largestFilmContact(grains) : 0;
     ContactList list(*species, *walls, periodic, skin.width(), threads, keepsBridges,
                      std::max(reach, largestFilmContactGap()), filmsReach, ofHeld = askedOfHeld());
+    list.setHorizon(halfLifeOfList());
     heldIsNew = false;
     const std::size_t recalled = list.rebuild(grains, contacts, remembered, takesInGrains);
     renewHeldMasses(grains);
@@ -246,6 +247,12 @@ std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts& r
     late.clear();
     ++rebuilds;
     return recalled;
+}
+
+/// s, about half of the time for which the last list lasted. What grains do later is not foreseen.
+double ContactSystem::halfLifeOfList() const {
+    constexpr std::size_t most = 200;  // steps
+    return 0.5 * static_cast<double>(lastStep) * static_cast<double>(std::min(stepsListed, most));
 }
 
 double ContactSystem::goThroughFaces(Grains& grains, std::span<const std::uint32_t> places,
@@ -477,6 +484,7 @@ void ContactSystem::visitState(StateArchive& archive, Grains& grains) {
 }
 
 void ContactSystem::computePairForces(const Grains& grains, double step, ContactTiming timing) {
+    lastStep = static_cast<float>(step);
     if (contacts.keepsTotals) contacts.totals.begin(grains.size(), threads);
     contactEvents.begin();
     liquid.prepareChanged(contacts, *species, grains);

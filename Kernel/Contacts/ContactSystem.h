@@ -421,6 +421,7 @@ private:
     /// listed again.
     std::size_t listAgain(Grains& grains, const RememberedContacts& remembered, bool keepsBridges = true,
                           double reach = 0);
+    [[nodiscard]] double halfLifeOfList() const;
     /// Whether idle lanes cost more than a new list, on any rank.
     [[nodiscard]] bool newListPays();
     void listedOnRanks(Grains& grains);
@@ -491,6 +492,7 @@ private:
     std::vector<std::uint32_t> late;  // identities of grains that came after the list
     std::vector<Sphere> lateSpheres;  // these grains, when takeIn() looks at them
     bool takesInGrains = false;       // and keeps the cells for it
+    float lastStep = 0;               // s
     std::optional<NeighbourSearch> cells;
     std::vector<std::uint32_t> passed;  // places of grains whose contacts are no longer in their order
     bool ledger = false;
