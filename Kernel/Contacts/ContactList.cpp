@@ -47,7 +47,7 @@ double largestRange(const ContactLaws& laws, const ParticleStore& grains) {
 }
 
 std::size_t ContactList::rebuild(Grains& grains, ContactStore& store, const RememberedContacts& old,
-                                 bool keepsCells) {
+                                 bool keepsCells, double apart) {
     const std::size_t pairsBefore = store.firstWallBlock() * Pack::lanes;
     store.releaseList();  // so that the old list and the search are not there at the same time
     formerPlace = spatialOrder(grains.translation, 2 * grains.smallestRadius() + skin, threads);
@@ -65,7 +65,7 @@ std::size_t ContactList::rebuild(Grains& grains, ContactStore& store, const Reme
     findWallContacts(grains, old);
     fill(grains, store);
     const std::size_t recalled =
-        ContactRecall(laws, grains, formerPlace, threads, keepsBridges).into(store, old);
+        ContactRecall(laws, grains, formerPlace, threads, keepsBridges).into(store, old, apart);
     store.listSides(grains.identity, threads);
     return recalled;
 }

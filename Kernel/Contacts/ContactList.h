@@ -48,8 +48,10 @@ public:
     /// @param old those that were taken or read when the grains were where they are, whose memory the store
     /// has
     /// @param keepsCells for takeSearch()
+    /// @param apart m, about by how much bodies that touched in the last step can be apart now
     /// Returns how many of them are listed again.
-    std::size_t rebuild(Grains& grains, ContactStore& store, const RememberedContacts& old, bool keepsCells);
+    std::size_t rebuild(Grains& grains, ContactStore& store, const RememberedContacts& old, bool keepsCells,
+                        double apart = infinity);
     /// Sorts pairs by the gaps that are expected after this time (s), if grains go on as they move now.
     void setHorizon(double time) { horizon = time; }
     /// The cells in which the list was made.

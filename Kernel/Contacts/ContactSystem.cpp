@@ -232,7 +232,8 @@ std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts& r
                      std::max(reach, largestFilmContactGap()), filmsReach, ofHeld = askedOfHeld());
     list.setHorizon(halfLifeOfList());
     heldIsNew = false;
-    const std::size_t recalled = list.rebuild(grains, contacts, remembered, takesInGrains);
+    const double apart = 2 * lastApproach + 1e-6 * grains.smallestRadius();
+    const std::size_t recalled = list.rebuild(grains, contacts, remembered, takesInGrains, apart);
     renewHeldMasses(grains);
     if (takesInGrains) cells = list.takeSearch();
     if (!contacts.totals.quantum.isChosen()) chooseQuantum(grains);
