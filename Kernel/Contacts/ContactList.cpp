@@ -157,6 +157,7 @@ void ContactList::addPair(Groups& all, const Grains& grains, std::uint32_t i, st
 }
 
 void ContactList::findWallContacts(const Grains& grains, const RememberedContacts& old) {
+    if (nearWalls.farther > 0 && walls.getSize() > 0) nearWalls.flags.assign(grains.size(), 0);
     for (const PresentWall& wall : walls.present())
         listInParts(grains.ownSize(), [&](Groups& own, std::size_t begin, std::size_t end) {
             std::vector<std::uint32_t> parts;
@@ -166,7 +167,7 @@ void ContactList::findWallContacts(const Grains& grains, const RememberedContact
 }
 
 void ContactList::findWallContacts(const Grains& grains, const RememberedContacts& old, std::size_t w,
-                                   std::uint32_t i, Groups& all, std::vector<std::uint32_t>& parts) const {
+                                   std::uint32_t i, Groups& all, std::vector<std::uint32_t>& parts) {
     const Wall& wall = walls.getObject(w);
     const TranslationRecord& grain = grains.translation[i];
     if (grain.inverseMass == 0 && !listsOfHeld.atWall(w)) return;
@@ -180,9 +181,14 @@ void ContactList::findWallContacts(const Grains& grains, const RememberedContact
         const double range = rangeOf(grains.species[i], wall.getSpeciesIndex(), {grain.radius});
         apart = std::max(apart, far ? range : std::min(reachOfFilms, range));
     }
-    parts.clear();
-    wall.listParts(grain.position, grain.radius + apart + skin, parts);
-    if (parts.empty()) return;
+    const auto listWithin = [&](double gap) {
+        parts.clear();
+        wall.listParts(grain.position, grain.radius + gap, parts);
+        return !parts.empty();
+    };
+    if (!nearWalls.flags.empty() && listWithin(apart + skin + nearWalls.farther)) nearWalls.flags[i] = 1;
+    else if (!nearWalls.flags.empty()) return;
+    if (!listWithin(apart + skin)) return;
     Group& group = groupOf(all, grains.species[i], wall.getSpeciesIndex(), static_cast<int>(w));
     for (const std::uint32_t part : parts) group.contacts.push_back({i, part});
 }

@@ -9,6 +9,7 @@
 
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/HeldContacts.h"
+#include "Kernel/Contacts/ListLife.h"
 #include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Contacts/PairOrder.h"
 
@@ -54,6 +55,9 @@ public:
                         double apart = infinity);
     /// Sorts pairs by the gaps that are expected after this time (s), if grains go on as they move now.
     void setHorizon(double time) { horizon = time; }
+    /// Notes which grains are near a wall: by so much (m) farther than the skin.
+    void noteGrainsNearWalls(double farther) { nearWalls.farther = farther; }
+    [[nodiscard]] ListLife::NearWalls takeNearWalls() { return std::move(nearWalls); }
     /// The cells in which the list was made.
     [[nodiscard]] NeighbourSearch takeSearch() { return std::move(*found); }
 
@@ -86,7 +90,7 @@ private:
     void findWallContacts(const Grains& grains, const RememberedContacts& old);
 
     void findWallContacts(const Grains& grains, const RememberedContacts& old, std::size_t w, std::uint32_t i,
-                          Groups& all, std::vector<std::uint32_t>& parts) const;
+                          Groups& all, std::vector<std::uint32_t>& parts);
 
     /// Sorts each stretch of the list by itself (PairOrder): stretches are short enough for the grains to
     /// stay in the cache.
@@ -114,6 +118,7 @@ private:
     bool keepsBridges;
     double reachOfAll, reachOfFilms;
     ListedOfHeld listsOfHeld;
+    ListLife::NearWalls nearWalls;
     double horizon = 0;           // s
     bool actBeforeTouch = false;  // some pairs
     std::optional<NeighbourSearch> found;

@@ -11,10 +11,10 @@ namespace {
 
 constexpr std::size_t columnsWorthAThread = 2048;  // grains
 
-double axisOf(const Vector<double>& v, std::size_t axis) { return v.*vectorAxes[axis]; }
+double alongAxis(const Vector<double>& v, std::size_t axis) { return v.*vectorAxes[axis]; }
 
 /// What positions span along an axis.
-struct Span {
+struct AxisSpan {
     double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
 
     void add(double x) { low = std::min(low, x), high = std::max(high, x); }
@@ -40,7 +40,7 @@ PairSearch::PairSearch(std::span<const TranslationRecord> grains, double ofSurfa
 /// A place whose grain was removed has the radius 0, and is in no column.
 std::vector<PairSearch::Places> PairSearch::sortIntoLevels(std::span<const TranslationRecord> grains) {
     const double half = 0.5 * margin;
-    Span sizes;
+    AxisSpan sizes;
     for (const TranslationRecord& grain : grains)
         if (grain.radius > 0) sizes.add(grain.radius + half);
     if (sizes.high < 0) return {};
@@ -66,16 +66,16 @@ bool PairSearch::makeGrid(Grid& grid, std::span<const TranslationRecord> grains,
     const auto positionOf = [&](std::uint32_t place) {
         return periodic.any() ? periodic.wrap(grains[place].position) : grains[place].position;
     };
-    std::array<Span, 3> spans;
+    std::array<AxisSpan, 3> spans;
     for (const std::uint32_t place : members) {
         const Vector<double> position = positionOf(place);
         spans[0].add(position.x), spans[1].add(position.y), spans[2].add(position.z);
     }
     std::array<double, 3> lengths{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double length = axisOf(periodic.length, axis);
-        grid.wraps[axis] = length > 0 && axisOf(periodic.across, axis) == 0;
-        grid.lowest[axis] = length > 0 ? axisOf(periodic.lowest, axis) : spans[axis].low;
+        const double length = alongAxis(periodic.length, axis);
+        grid.wraps[axis] = length > 0 && alongAxis(periodic.across, axis) == 0;
+        grid.lowest[axis] = length > 0 ? alongAxis(periodic.lowest, axis) : spans[axis].low;
         lengths[axis] = length > 0 ? length : spans[axis].high - spans[axis].low;
     }
     const double wider = grid.divide(lengths, members.size());
