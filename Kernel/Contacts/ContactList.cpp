@@ -186,8 +186,10 @@ void ContactList::findWallContacts(const Grains& grains, const RememberedContact
         wall.listParts(grain.position, grain.radius + gap, parts);
         return !parts.empty();
     };
-    if (!nearWalls.flags.empty() && listWithin(apart + skin + nearWalls.farther)) nearWalls.flags[i] = 1;
-    else if (!nearWalls.flags.empty()) return;
+    if (!nearWalls.flags.empty()) {
+        if (!listWithin(apart + skin + nearWalls.farther)) return;
+        nearWalls.flags[i] = 1;
+    }
     if (!listWithin(apart + skin)) return;
     Group& group = groupOf(all, grains.species[i], wall.getSpeciesIndex(), static_cast<int>(w));
     for (const std::uint32_t part : parts) group.contacts.push_back({i, part});
