@@ -1,10 +1,12 @@
 #include "Kernel/Contacts/ContactList.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "Kernel/Base/LargePages.h"
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/ContactRecall.h"
+#include "Kernel/Contacts/PairSearch.h"
 #include "Kernel/Contacts/RememberedContacts.h"
 #include "Kernel/Walls/WallHandler.h"
 
@@ -13,6 +15,15 @@ namespace {
 
 bool isBridged(const RememberedContacts::Entry& entry) {
     return (entry.state & RememberedContacts::bridged) != 0;
+}
+
+/// Whether some pairs act before they touch: at a distance, or where their films meet.
+bool anyActsBeforeTouch(const ContactLaws& laws) {
+    const auto count = static_cast<int>(laws.speciesCount());
+    bool any = laws.actsApart;
+    for (int a = 0; a < count; ++a)
+        for (int b = a; b < count; ++b) any = any || laws.filmContactGap(a, b) > 0;
+    return any;
 }
 
 }  // namespace
@@ -36,7 +47,7 @@ double largestRange(const ContactLaws& laws, const ParticleStore& grains) {
 }
 
 std::size_t ContactList::rebuild(Grains& grains, ContactStore& store, const RememberedContacts& old,
-                                 bool keepsCells) {
+                                 bool keepsCells, double apart) {
     const std::size_t pairsBefore = store.firstWallBlock() * Pack::lanes;
     store.releaseList();  // so that the old list and the search are not there at the same time
     formerPlace = spatialOrder(grains.translation, 2 * grains.smallestRadius() + skin, threads);
@@ -49,12 +60,12 @@ std::size_t ContactList::rebuild(Grains& grains, ContactStore& store, const Reme
     grains.bodies.refresh(grains);
     if (reachOfFilms > 0)
         reachOfAll = std::max(reachOfAll, std::min(reachOfFilms, largestRange(laws, grains)));
-    findPairs(grains, old, pairsBefore);
+    findPairs(grains, old, pairsBefore, keepsCells);
     if (!keepsCells) found.reset();
     findWallContacts(grains, old);
     fill(grains, store);
     const std::size_t recalled =
-        ContactRecall(laws, grains, formerPlace, threads, keepsBridges).into(store, old);
+        ContactRecall(laws, grains, formerPlace, threads, keepsBridges).into(store, old, apart);
     store.listSides(grains.identity, threads);
     return recalled;
 }
@@ -87,11 +98,13 @@ void ContactList::listInParts(std::size_t grainCount, Function&& function) {
         }
 }
 
-void ContactList::findPairs(const Grains& grains, const RememberedContacts& old, std::size_t pairsBefore) {
-    found.emplace(grains.translation,
-                  skin + std::max(reachOfAll, laws.actsApart ? largestRange(laws, grains) : 0), periodic,
-                  threads);
-    const NeighbourSearch& search = *found;
+void ContactList::findPairs(const Grains& grains, const RememberedContacts& old, std::size_t pairsBefore,
+                            bool keepsCells) {
+    actBeforeTouch = anyActsBeforeTouch(laws);
+    const double margin = skin + std::max(reachOfAll, laws.actsApart ? largestRange(laws, grains) : 0);
+    const PairSearch search(grains.translation, margin, periodic, threads);
+    const bool usable = search.isUsable();
+    if (keepsCells || !usable) found.emplace(grains.translation, margin, periodic, threads);
     listInParts(grains.size(), [&](Groups& own, std::size_t begin, std::size_t end) {
         for (std::size_t a = 0; a < laws.speciesCount(); ++a)
             for (std::size_t b = a; b < laws.speciesCount(); ++b)
@@ -100,14 +113,18 @@ void ContactList::findPairs(const Grains& grains, const RememberedContacts& old,
         const std::size_t share = pairsBefore * (end - begin) / std::max<std::size_t>(grains.size(), 1);
         if (own.size() == 1) own[0].contacts.reserve(share + share / 16);
         for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
-            search.forEachPartner(i, [&](std::uint32_t j) {
-                if (!laws.actsApart || nearEnough(grains, i, j)) addPair(own, grains, i, j);
-            });
-            if (laws.formsAtContact)
-                for (const auto& entry : old.of(formerPlace[i]))
-                    if (entry.wall == 0 && isBridged(entry) &&
-                        !search.reaches(i, grains.placeOf(entry.other)))
-                        addPair(own, grains, i, grains.placeOf(entry.other));
+            const auto add = [&](std::uint32_t j, double gap, double closing) {
+                if (!laws.actsApart || nearEnough(grains, i, j)) addPair(own, grains, i, j, gap, closing);
+            };
+            if (usable) search.forEachPartner(i, add);
+            else found->forEachPartner(i, [&](std::uint32_t j) { add(j, gapOf(grains, i, j), 0); });
+            if (!laws.formsAtContact) continue;
+            for (const auto& entry : old.of(formerPlace[i])) {
+                if (entry.wall != 0 || !isBridged(entry)) continue;
+                const std::uint32_t j = grains.placeOf(entry.other);
+                if (!(usable ? search.reaches(i, j) : found->reaches(i, j)))
+                    addPair(own, grains, i, j, gapOf(grains, i, j));
+            }
         }
     });
 }
@@ -121,7 +138,8 @@ bool ContactList::nearEnough(const Grains& grains, std::uint32_t i, std::uint32_
     return squaredNorm(periodic.nearest(b.position - a.position)) < reach * reach;
 }
 
-void ContactList::addPair(Groups& all, const Grains& grains, std::uint32_t i, std::uint32_t j) const {
+void ContactList::addPair(Groups& all, const Grains& grains, std::uint32_t i, std::uint32_t j, double gap,
+                          double closing) const {
     if (!listsOfHeld.pairs && grains.translation[i].inverseMass == 0 &&
         grains.translation[j].inverseMass == 0)
         return;
@@ -132,10 +150,14 @@ void ContactList::addPair(Groups& all, const Grains& grains, std::uint32_t i, st
     // The groups of pairs stand first, in the order of a triangle of species.
     const std::size_t group = low * laws.speciesCount() - low * (low + 1) / 2 + high;
     const bool isOrdered = grains.identity[i] < grains.identity[j];
-    all[group].contacts.push_back({isOrdered ? i : j, isOrdered ? j : i});
+    const std::uint32_t first = isOrdered ? i : j, second = isOrdered ? j : i;
+    if (actBeforeTouch) gap -= actsFrom(grains, first, second);
+    all[group].contacts.push_back(
+        {first, second, static_cast<float>(gap), static_cast<float>(gap - horizon * closing)});
 }
 
 void ContactList::findWallContacts(const Grains& grains, const RememberedContacts& old) {
+    if (nearWalls.farther > 0 && walls.getSize() > 0) nearWalls.flags.assign(grains.size(), 0);
     for (const PresentWall& wall : walls.present())
         listInParts(grains.ownSize(), [&](Groups& own, std::size_t begin, std::size_t end) {
             std::vector<std::uint32_t> parts;
@@ -145,7 +167,7 @@ void ContactList::findWallContacts(const Grains& grains, const RememberedContact
 }
 
 void ContactList::findWallContacts(const Grains& grains, const RememberedContacts& old, std::size_t w,
-                                   std::uint32_t i, Groups& all, std::vector<std::uint32_t>& parts) const {
+                                   std::uint32_t i, Groups& all, std::vector<std::uint32_t>& parts) {
     const Wall& wall = walls.getObject(w);
     const TranslationRecord& grain = grains.translation[i];
     if (grain.inverseMass == 0 && !listsOfHeld.atWall(w)) return;
@@ -159,43 +181,43 @@ void ContactList::findWallContacts(const Grains& grains, const RememberedContact
         const double range = rangeOf(grains.species[i], wall.getSpeciesIndex(), {grain.radius});
         apart = std::max(apart, far ? range : std::min(reachOfFilms, range));
     }
-    parts.clear();
-    wall.listParts(grain.position, grain.radius + apart + skin, parts);
-    if (parts.empty()) return;
+    const auto listWithin = [&](double gap) {
+        parts.clear();
+        wall.listParts(grain.position, grain.radius + gap, parts);
+        return !parts.empty();
+    };
+    if (!nearWalls.flags.empty()) {
+        if (!listWithin(apart + skin + nearWalls.farther)) return;
+        nearWalls.flags[i] = 1;
+    }
+    if (!listWithin(apart + skin)) return;
     Group& group = groupOf(all, grains.species[i], wall.getSpeciesIndex(), static_cast<int>(w));
     for (const std::uint32_t part : parts) group.contacts.push_back({i, part});
 }
 
-void ContactList::sortByGap(Group& g, const Grains& grains) const {
+void ContactList::sortPairs(Group& g) const {
     constexpr std::size_t stretch = 2048;
-    inParts((g.contacts.size() + stretch - 1) / stretch, threads,
-            [&](int, std::size_t first, std::size_t last) {
-                std::vector<std::pair<double, Listed>> pairs;
-                for (std::size_t begin = first * stretch; begin < std::min(last * stretch, g.contacts.size());
-                     begin += stretch)
-                    sortByGap({g.contacts.data() + begin, std::min(stretch, g.contacts.size() - begin)},
-                              grains, pairs);
-            });
+    const PairOrder order(skin + reachOfAll);
+    inParts(
+        (g.contacts.size() + stretch - 1) / stretch, threads, [&](int, std::size_t first, std::size_t last) {
+            std::vector<ListedPair> buffer;
+            for (std::size_t begin = first * stretch; begin < std::min(last * stretch, g.contacts.size());
+                 begin += stretch)
+                order.sort({g.contacts.data() + begin, std::min(stretch, g.contacts.size() - begin)}, buffer);
+        });
 }
 
-void ContactList::sortByGap(std::span<Listed> contacts, const Grains& grains,
-                            std::vector<std::pair<double, Listed>>& pairs) const {
-    pairs.clear();
-    for (const Listed& pair : contacts) pairs.emplace_back(gapOf(grains, pair), pair);
-    const auto apart =
-        std::stable_partition(pairs.begin(), pairs.end(), [](const auto& p) { return p.first <= 0; });
-    std::stable_sort(apart, pairs.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
-    for (std::size_t k = 0; k < contacts.size(); ++k) contacts[k] = pairs[k].second;
+double ContactList::gapOf(const Grains& grains, std::uint32_t i, std::uint32_t j) const {
+    const TranslationRecord& a = grains.translation[i];
+    const TranslationRecord& b = grains.translation[j];
+    return norm(periodic.nearest(b.position - a.position)) - (a.radius + b.radius);
 }
 
-double ContactList::gapOf(const Grains& grains, const Listed& pair) const {
-    const TranslationRecord& a = grains.translation[pair.first];
-    const TranslationRecord& b = grains.translation[pair.second];
-    double reach =
-        a.radius + b.radius + laws.filmContactGap(grains.species[pair.first], grains.species[pair.second]);
-    if (laws.actsApart)
-        reach += rangeOf(grains.species[pair.first], grains.species[pair.second], {a.radius, b.radius});
-    return norm(periodic.nearest(b.position - a.position)) - reach;
+double ContactList::actsFrom(const Grains& grains, std::uint32_t first, std::uint32_t second) const {
+    const double gap = laws.filmContactGap(grains.species[first], grains.species[second]);
+    if (!laws.actsApart) return gap;
+    const Bodies bodies{grains.translation[first].radius, grains.translation[second].radius};
+    return gap + rangeOf(grains.species[first], grains.species[second], bodies);
 }
 
 void ContactList::separateThoseOfOthers(const Grains& grains) {
@@ -203,7 +225,7 @@ void ContactList::separateThoseOfOthers(const Grains& grains) {
     for (Group& g : groups) {
         const auto others = std::stable_partition(
             g.contacts.begin(), g.contacts.end(),
-            [own = grains.ownSize()](const Listed& contact) { return contact.first < own; });
+            [own = grains.ownSize()](const ListedPair& contact) { return contact.first < own; });
         Group ofOthers{g.bucket, {others, g.contacts.end()}};
         g.contacts.erase(others, g.contacts.end());
         all.push_back(std::move(g));
@@ -218,7 +240,7 @@ void ContactList::fill(const Grains& grains, ContactStore& store) {
     store.buckets.clear();
     for (Group& g : groups) {
         if (g.contacts.empty()) continue;
-        if (g.bucket.wall < 0) sortByGap(g, grains);
+        if (g.bucket.wall < 0) sortPairs(g);
         g.bucket.begin = static_cast<std::uint32_t>(blocks);
         const std::size_t own = (g.contacts.size() + Pack::lanes - 1) / Pack::lanes;
         blocks += own;
@@ -236,7 +258,7 @@ void ContactList::fill(const Grains& grains, ContactStore& store) {
         inParts(
             g.bucket.end - g.bucket.begin, threads,
             [&](int, std::size_t begin, std::size_t end) {
-                for (std::size_t b = begin; b < end; ++b) fillBlock(g, b, grains, store);
+                for (std::size_t b = begin; b < end; ++b) fillBlock(g, b, store);
             },
             worthAThread);
     const auto touching =
@@ -245,19 +267,21 @@ void ContactList::fill(const Grains& grains, ContactStore& store) {
     groups = {};
 }
 
-void ContactList::fillBlock(const Group& g, std::size_t b, const Grains& grains, ContactStore& store) const {
+void ContactList::fillBlock(const Group& g, std::size_t b, ContactStore& store) const {
     const std::size_t block = g.bucket.begin + b;
     const std::size_t count = std::min<std::size_t>(g.contacts.size() - b * Pack::lanes, Pack::lanes);
+    float least = infinity;
     for (std::size_t lane = 0; lane < count; ++lane) {
-        const Listed& contact = g.contacts[b * Pack::lanes + lane];
+        const ListedPair& contact = g.contacts[b * Pack::lanes + lane];
         store.blocks[block].first[lane] = contact.first;
         store.blocks[block].second[lane] = contact.second;
+        least = std::min(least, contact.gap);
     }
     store.states[block].listed = static_cast<std::uint8_t>((1u << count) - 1);
     if (g.bucket.wall >= 0) return;
     store.blocks[block].pointToListed(store.states[block].listed);
-    // The first of a block has the smallest gap.
-    store.gaps[block] = gapOf(grains, g.contacts[b * Pack::lanes]) - 1e-9 * skin;
+    // Gaps are rounded to float.
+    store.gaps[block] = least - 1e-6 * std::abs(least) - 1e-9 * skin;
 }
 
 }  // namespace pendular

@@ -9,7 +9,9 @@
 
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/HeldContacts.h"
+#include "Kernel/Contacts/ListLife.h"
 #include "Kernel/Contacts/NeighbourSearch.h"
+#include "Kernel/Contacts/PairOrder.h"
 
 namespace pendular {
 
@@ -47,18 +49,22 @@ public:
     /// @param old those that were taken or read when the grains were where they are, whose memory the store
     /// has
     /// @param keepsCells for takeSearch()
+    /// @param apart m, about by how much bodies that touched in the last step can be apart now
     /// Returns how many of them are listed again.
-    std::size_t rebuild(Grains& grains, ContactStore& store, const RememberedContacts& old, bool keepsCells);
+    std::size_t rebuild(Grains& grains, ContactStore& store, const RememberedContacts& old, bool keepsCells,
+                        double apart = infinity);
+    /// Sorts pairs by the gaps that are expected after this time (s), if grains go on as they move now.
+    void setHorizon(double time) { horizon = time; }
+    /// Notes which grains are near a wall: by so much (m) farther than the skin.
+    void noteGrainsNearWalls(double farther) { nearWalls.farther = farther; }
+    [[nodiscard]] ListLife::NearWalls takeNearWalls() { return std::move(nearWalls); }
     /// The cells in which the list was made.
     [[nodiscard]] NeighbourSearch takeSearch() { return std::move(*found); }
 
 private:
-    struct Listed {
-        std::uint32_t first, second;
-    };
     struct Group {
         Bucket bucket;
-        std::vector<Listed> contacts;
+        std::vector<ListedPair> contacts;
     };
     using Groups = std::vector<Group>;
 
@@ -72,27 +78,28 @@ private:
     void listInParts(std::size_t grainCount, Function&& function);
 
     /// @param pairsBefore of the last list, about
-    void findPairs(const Grains& grains, const RememberedContacts& old, std::size_t pairsBefore);
+    void findPairs(const Grains& grains, const RememberedContacts& old, std::size_t pairsBefore,
+                   bool keepsCells);
 
     bool nearEnough(const Grains& grains, std::uint32_t i, std::uint32_t j) const;
 
     /// Two ghosts are no pair of this rank.
-    void addPair(Groups& all, const Grains& grains, std::uint32_t i, std::uint32_t j) const;
+    /// @param gap m, of the surfaces; @param closing m/s, the speed at which it closes
+    void addPair(Groups& all, const Grains& grains, std::uint32_t i, std::uint32_t j, double gap,
+                 double closing = 0) const;
     void findWallContacts(const Grains& grains, const RememberedContacts& old);
 
     void findWallContacts(const Grains& grains, const RememberedContacts& old, std::size_t w, std::uint32_t i,
-                          Groups& all, std::vector<std::uint32_t>& parts) const;
+                          Groups& all, std::vector<std::uint32_t>& parts);
 
-    /// Within each stretch of the list, puts the pairs that touch before those that do not, and these in the
-    /// order of their gaps: the blocks of the former are full, and those of the latter cost nothing until
-    /// bodies have approached by their smallest gap. Stretches are short enough for the grains to stay in the
-    /// cache.
-    void sortByGap(Group& g, const Grains& grains) const;
-    void sortByGap(std::span<Listed> contacts, const Grains& grains,
-                   std::vector<std::pair<double, Listed>>& pairs) const;
+    /// Sorts each stretch of the list by itself (PairOrder): stretches are short enough for the grains to
+    /// stay in the cache.
+    void sortPairs(Group& g) const;
 
-    /// How far two grains must approach (m) before the pair acts.
-    double gapOf(const Grains& grains, const Listed& pair) const;
+    /// The gap of the surfaces (m).
+    double gapOf(const Grains& grains, std::uint32_t i, std::uint32_t j) const;
+    /// How far two grains must approach (m) before they act, where they act before they touch.
+    double actsFrom(const Grains& grains, std::uint32_t first, std::uint32_t second) const;
 
     /// Contacts that count on another rank, whose body 1 is a ghost, get groups of their own.
     void separateThoseOfOthers(const Grains& grains);
@@ -100,7 +107,7 @@ private:
     void fill(const Grains& grains, ContactStore& store);
 
     /// @param b of the group
-    void fillBlock(const Group& g, std::size_t b, const Grains& grains, ContactStore& store) const;
+    void fillBlock(const Group& g, std::size_t b, ContactStore& store) const;
 
     static constexpr std::size_t worthAThread = 128;  // grains or blocks
     const ContactLaws& laws;
@@ -111,6 +118,9 @@ private:
     bool keepsBridges;
     double reachOfAll, reachOfFilms;
     ListedOfHeld listsOfHeld;
+    ListLife::NearWalls nearWalls;
+    double horizon = 0;           // s
+    bool actBeforeTouch = false;  // some pairs
     std::optional<NeighbourSearch> found;
     std::vector<std::uint32_t> formerPlace;  // of the grain at each place
     Groups groups;

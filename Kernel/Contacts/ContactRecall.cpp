@@ -28,8 +28,8 @@ void ContactRecall::forEachBlock(const ContactStore& store, Function&& function)
             blocksWorthAThread);
 }
 
-std::size_t ContactRecall::into(ContactStore& store, const RememberedContacts& old) const {
-    const std::vector<std::uint32_t> entries = entriesOf(old, store);
+std::size_t ContactRecall::into(ContactStore& store, const RememberedContacts& old, double apart) const {
+    const std::vector<std::uint32_t> entries = entriesOf(old, store, apart);
     std::vector<std::uint32_t> origins(Pack::lanes), blocks{0};
     std::iota(origins.begin(), origins.end(), 0u);  // block 0 stays
     std::size_t recalled = 0;
@@ -50,10 +50,22 @@ std::size_t ContactRecall::into(ContactStore& store, const RememberedContacts& o
     return recalled;
 }
 
-std::vector<std::uint32_t> ContactRecall::entriesOf(const RememberedContacts& old,
-                                                    const ContactStore& store) const {
+std::vector<std::uint32_t> ContactRecall::entriesOf(const RememberedContacts& old, const ContactStore& store,
+                                                    double apart) const {
     std::vector<std::uint32_t> entries(store.blocks.size() * Pack::lanes, RememberedContacts::none);
+    // Bodies that are bridged may be far apart.
+    const double near = laws.formsAtContact || laws.actsApart || laws.breaks ? infinity : apart;
+    lookUp(old, store, -infinity, near, entries);
+    if (near < infinity && static_cast<std::size_t>(std::ranges::count_if(
+                               entries, [](std::uint32_t entry) { return !isNone(entry); })) != old.size())
+        lookUp(old, store, near, infinity, entries);
+    return entries;
+}
+
+void ContactRecall::lookUp(const RememberedContacts& old, const ContactStore& store, double from, double to,
+                           std::vector<std::uint32_t>& entries) const {
     forEachBlock(store, [&](const Bucket& bucket, std::size_t b) {
+        if (!(store.gaps[b] >= from && store.gaps[b] < to)) return;
         for (std::size_t lane = 0; lane < Pack::lanes; ++lane) {
             if (!store.bitOf(store.states[b].listed, lane)) continue;
             const std::uint32_t second = store.blocks[b].second[lane];
@@ -62,7 +74,6 @@ std::vector<std::uint32_t> ContactRecall::entriesOf(const RememberedContacts& ol
                                                        bucket.wall >= 0 ? second : grains.identity[second]);
         }
     });
-    return entries;
 }
 
 void ContactRecall::prepareBridges(const std::vector<std::uint32_t>& entries, ContactStore& store) const {

@@ -22,13 +22,18 @@ public:
           keepsPrepared(keepsBridges) {}
 
     /// @param old those of the last list, whose memory the store has
-    /// Returns how many of them are listed again.
-    std::size_t into(ContactStore& store, const RememberedContacts& old) const;
+    /// @param apart m, about by how much bodies that touched in the last step can be apart now: pairs that
+    /// are farther apart are looked up only if some contacts are not found among the others Returns how many
+    /// of them are listed again.
+    std::size_t into(ContactStore& store, const RememberedContacts& old, double apart = infinity) const;
 
 private:
     /// The number of what each lane of the list remembers.
     [[nodiscard]] std::vector<std::uint32_t> entriesOf(const RememberedContacts& old,
-                                                       const ContactStore& store) const;
+                                                       const ContactStore& store, double apart) const;
+    /// Looks up the contacts of blocks whose pairs are at least `from` and less than `to` (m) apart.
+    void lookUp(const RememberedContacts& old, const ContactStore& store, double from, double to,
+                std::vector<std::uint32_t>& entries) const;
     /// Prepares the bridges of the blocks with memory: new contacts have no bridge yet, and what bodies or
     /// laws are now may differ from what they were when the others were prepared.
     void prepareBridges(const std::vector<std::uint32_t>& entries, ContactStore& store) const;

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "Kernel/Base/Parallel.h"
+#include "Kernel/Contacts/CountUp.h"
 #include "Kernel/Math/Pack.h"
 #include "Kernel/Particles/ParticleStore.h"
 
@@ -25,7 +26,8 @@ public:
         return {sides.data() + begins[grain], sides.data() + ends[grain]};
     }
 
-    /// Those of the contacts without memory, 2 x contact + (0 or 1).
+    /// Those of the contacts without memory, 2 x contact + (0 or 1), in no order: it may depend on the
+    /// threads.
     [[nodiscard]] std::span<const std::uint32_t> asleepOf(std::size_t grain) const {
         return {sides.data() + ends[grain], sides.data() + begins[grain + 1]};
     }
@@ -111,28 +113,22 @@ private:
 
     static bool isMemory(std::uint32_t slot) { return slot >= Pack::lanes; }
 
-    /// Returns what the count was.
-    /// @param isShared several threads count
-    static std::uint32_t countUp(std::uint32_t& count, bool isShared) {
-        return isShared ? std::atomic_ref(count).fetch_add(1, std::memory_order_relaxed) : count++;
-    }
-
     /// Orders the sides of a grain, which are there in any order: those with memory, which get their place in
-    /// it, by their keys, then the others by contact.
+    /// it, by their keys, then the others.
     template <class SlotOf, class KeyOf>
     void order(std::size_t grain, std::vector<Keyed>& keyed, SlotOf&& slotOf, KeyOf&& keyOf) {
-        constexpr std::uint64_t afterAllKeys = std::uint64_t{1} << 63;
         keyed.clear();
-        ends[grain] = begins[grain];
-        for (std::uint32_t k = begins[grain]; k < begins[grain + 1]; ++k) {
+        std::uint32_t k = begins[grain], asleep = begins[grain + 1];
+        while (k < asleep) {
             const std::uint32_t contact = sides[k] / 2, which = sides[k] % 2, slot = slotOf(contact);
             if (isMemory(slot)) {
                 keyed.push_back({keyOf(contact, which), 2 * slot + which});
-                ++ends[grain];
+                ++k;
             } else {
-                keyed.push_back({afterAllKeys | sides[k], sides[k]});
+                std::swap(sides[k], sides[--asleep]);
             }
         }
+        ends[grain] = asleep;
         sort(keyed, begins[grain]);
     }
     /// Writes the sides by their keys, from this place on.

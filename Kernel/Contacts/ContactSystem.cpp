@@ -33,6 +33,7 @@ void ContactSystem::prepare(ContactLaws& contactLaws, const WallHandler& wallHan
     skin = skinChoice;
     ledger = withLedger;
     unlisted = infinity;
+    life.reset();
     contacts.keepsTotals = !species->shapes();
     contacts.totals = {};
     ContactLayout layout = species->layout;
@@ -67,14 +68,16 @@ bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift)
     contacts.sides.addGrains(grains.size());
     lastApproach = approachBy(grainShift, wallShift);
     unlisted += lastApproach;
+    life.move(lastApproach, wallShift);
     ++stepsListed;
-    const bool isNear = unlisted >= std::min(skin.width(), listBefore) ||
+    const bool hasEnded = unlisted < listBefore && life.isOver(grains);
+    const bool isNear = hasEnded || unlisted >= listBefore ||
                         (liquid.formsAtFilms(*species) && liquid.largestFilmContact(grains) > filmsReach);
     const bool isTime = stepsListed % IdleLanes::interval == 0 && newListPays();
     const bool areToBeShared = sharing && !sharing->areDistributed();
     if (!isNear && !isTime && !areToBeShared) return false;
     // A list that ends early, because of grains that came later, says nothing of how long a list lasts.
-    if (rebuilds > 0 && unlisted >= skin.width()) skin.choose(unlisted, stepsListed);
+    if (rebuilds > 0 && hasEnded) skin.choose(std::max(life.approach(), 0.5 * skin.width()), stepsListed);
     if (sharing) skin.takeWidth(-sharing->largest(-skin.width()));
     listAgain(grains, true, 0, areToBeShared);
     return true;
@@ -164,7 +167,7 @@ void ContactSystem::leaveCountsToFirstRank() {
 }
 
 void ContactSystem::listWithin(Grains& grains, double reach) {
-    if (!(reach > std::min(skin.width(), listBefore) - unlisted)) return;
+    if (!(reach > std::min(life.rest(), listBefore - unlisted))) return;
     listAgain(grains, true, reach);
     findWallPoints(grains, 0);
 }
@@ -230,10 +233,18 @@ std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts& r
     filmsReach = liquid.formsAtFilms(*species) ? 1.25 * liquid.largestFilmContact(grains) : 0;
     ContactList list(*species, *walls, periodic, skin.width(), threads, keepsBridges,
                      std::max(reach, largestFilmContactGap()), filmsReach, ofHeld = askedOfHeld());
+    list.setHorizon(halfLifeOfList());
+    // Where grains are no spheres, or act apart by laws or by films, a list lasts for the skin.
+    const bool watches =
+        !sharing && !species->actsApart && !species->shapes() && !liquid.formsAtFilms(*species);
+    if (watches) list.noteGrainsNearWalls(2 * grains.smallestRadius());
     heldIsNew = false;
-    const std::size_t recalled = list.rebuild(grains, contacts, remembered, takesInGrains);
+    const double apart = 2 * lastApproach + 1e-6 * grains.smallestRadius();
+    const std::size_t recalled = list.rebuild(grains, contacts, remembered, takesInGrains, apart);
     renewHeldMasses(grains);
     if (takesInGrains) cells = list.takeSearch();
+    life.begin(grains, periodic, std::max(reach, largestFilmContactGap()), skin.width(), watches,
+               list.takeNearWalls());
     if (!contacts.totals.quantum.isChosen()) chooseQuantum(grains);
     wallPatches.listed(contacts, *species, grains);
     skin.listed(contacts, grains.size());
@@ -248,6 +259,12 @@ std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts& r
     return recalled;
 }
 
+/// s, about half of the time for which the last list lasted. What grains do later is not foreseen.
+double ContactSystem::halfLifeOfList() const {
+    constexpr std::size_t most = 200;  // steps
+    return 0.5 * static_cast<double>(lastStep) * static_cast<double>(std::min(stepsListed, most));
+}
+
 double ContactSystem::goThroughFaces(Grains& grains, std::span<const std::uint32_t> places,
                                      const std::vector<bool>& hasEnds, double time,
                                      const std::function<void()>& bringBack) {
@@ -258,6 +275,7 @@ double ContactSystem::goThroughFaces(Grains& grains, std::span<const std::uint32
     passage.leave(grains, places);
     bringBack();
     passage.arrive(grains, filmReach() + skin.width(), time);
+    for (const std::uint32_t place : places) life.noteNearWall(place);
     if (!allRanks.any(passage.needsList())) return 0;
     ExactSum stored;
     for (const std::uint32_t contact : passage.toEnd()) stored.add(endContact(grains, contact));
@@ -320,6 +338,7 @@ bool ContactSystem::takeIn(const Grains& grains, std::span<const std::uint32_t> 
         return false;
     takesInGrains = true;
     if (!cells) return false;  // the next list keeps them
+    for (const std::uint32_t identity : identities) life.forget(grains.place[identity]);
     std::erase_if(late, [&](std::uint32_t identity) { return !grains.place.contains(identity); });
     late.insert(late.end(), identities.begin(), identities.end());
     lateSpheres.clear();
@@ -477,6 +496,7 @@ void ContactSystem::visitState(StateArchive& archive, Grains& grains) {
 }
 
 void ContactSystem::computePairForces(const Grains& grains, double step, ContactTiming timing) {
+    lastStep = static_cast<float>(step);
     if (contacts.keepsTotals) contacts.totals.begin(grains.size(), threads);
     contactEvents.begin();
     liquid.prepareChanged(contacts, *species, grains);

@@ -14,6 +14,7 @@
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/HeldContacts.h"
 #include "Kernel/Contacts/IdleLanes.h"
+#include "Kernel/Contacts/ListLife.h"
 #include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Contacts/ObservedContact.h"
 #include "Kernel/Contacts/OverlapWatch.h"
@@ -329,14 +330,12 @@ public:
         }
     }
 
-    /// Whether refresh() would list again with such shifts (m), as bodies may have come near each other.
+    /// Whether refresh() may list again with such shifts (m), as bodies may have come near each other.
     [[nodiscard]] bool isListDue(double grainShift, double wallShift) const {
-        return unlisted + approachBy(grainShift, wallShift) >= std::min(skin.width(), listBefore);
+        return isListDueAfter(approachBy(grainShift, wallShift));
     }
-    /// Whether it would in a step with shifts so many times as large as those of the last one.
-    [[nodiscard]] bool isListDueSoon(double times) const {
-        return unlisted + times * lastApproach >= std::min(skin.width(), listBefore);
-    }
+    /// Whether it may in a step with shifts so many times as large as those of the last one.
+    [[nodiscard]] bool isListDueSoon(double times) const { return isListDueAfter(times * lastApproach); }
 
 private:
     /// Asks for what the account reads of a contact: it lies all over the memory.
@@ -383,6 +382,9 @@ private:
     static double approachBy(double grainShift, double wallShift) {
         return grainShift + std::max(grainShift, wallShift);
     }
+    [[nodiscard]] bool isListDueAfter(double approach) const {
+        return unlisted + approach >= listBefore || approach >= life.rest();
+    }
     [[nodiscard]] const Wall& wallOf(const Bucket& bucket) const {
         return walls->getObject(static_cast<std::size_t>(bucket.wall));
     }
@@ -421,6 +423,7 @@ private:
     /// listed again.
     std::size_t listAgain(Grains& grains, const RememberedContacts& remembered, bool keepsBridges = true,
                           double reach = 0);
+    [[nodiscard]] double halfLifeOfList() const;
     /// Whether idle lanes cost more than a new list, on any rank.
     [[nodiscard]] bool newListPays();
     void listedOnRanks(Grains& grains);
@@ -491,6 +494,7 @@ private:
     std::vector<std::uint32_t> late;  // identities of grains that came after the list
     std::vector<Sphere> lateSpheres;  // these grains, when takeIn() looks at them
     bool takesInGrains = false;       // and keeps the cells for it
+    float lastStep = 0;               // s
     std::optional<NeighbourSearch> cells;
     std::vector<std::uint32_t> passed;  // places of grains whose contacts are no longer in their order
     bool ledger = false;
@@ -533,6 +537,7 @@ private:
     // Since computeChanged() was called last:
     std::vector<bool> changedPairs;  // by pairs of species, as lawValues: whether their laws are others
     std::vector<bool> changedWalls;  // that have another species
+    ListLife life;                   // of the list
 };
 
 }  // namespace pendular

@@ -47,7 +47,10 @@ void FacePassage::leave(const Grains& grains, std::span<const std::uint32_t> pla
         if (place >= store.sides.grainCount()) continue;  // it came after the list
         for (const std::uint32_t side : store.sides.of(place))
             note(grains, store.contactAt(side / 2), passing);
-        for (const std::uint32_t side : store.sides.asleepOf(place)) note(grains, side / 2, passing);
+        const auto others = store.sides.asleepOf(place);
+        std::vector<std::uint32_t> asleep(others.begin(), others.end());
+        std::ranges::sort(asleep);  // the same order for any number of threads
+        for (const std::uint32_t side : asleep) note(grains, side / 2, passing);
     }
 }
 

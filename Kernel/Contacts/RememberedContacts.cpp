@@ -1,12 +1,14 @@
 #include "Kernel/Contacts/RememberedContacts.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
 #include "Kernel/Base/Parallel.h"
+#include "Kernel/Contacts/CountUp.h"
 #include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
@@ -17,32 +19,53 @@ auto orderOf(const RememberedContacts::Entry& e) { return std::tuple(e.wall, e.o
 
 }  // namespace
 
-/// The sides of a grain are in the order of its partners, so each contact is found at its first body.
+/// Goes over the blocks, whose states lie one behind the other; each grain's contacts are sorted afterwards.
 void RememberedContacts::take(const ContactStore& store, const std::vector<std::uint32_t>& identity,
                               int threads) {
-    constexpr std::size_t worthAThread = 512;  // grains
-    const std::size_t grains = std::min(identity.size(), store.sides.grainCount());
+    constexpr std::size_t worthAThread = 512;  // blocks or grains
+    const bool isShared = threads > 1;
     const auto forEachActing = [&](auto&& function) {
         inParts(
-            grains, threads,
+            store.blockCount(), threads,
             [&](int, std::size_t first, std::size_t end) {
-                for (std::size_t place = first; place < end; ++place)
-                    for (const std::uint32_t side : store.sides.of(place))
-                        if (side % 2 == 0 && store.acts(store.contactAt(side / 2))) function(place, side / 2);
+                for (std::size_t block = first; block < end; ++block) {
+                    if (store.slots[block] == ContactStore::asleep) continue;
+                    unsigned acting = store.states[block].touching | store.states[block].bridged;
+                    for (; acting != 0; acting &= acting - 1)
+                        function(static_cast<std::uint32_t>(block * Pack::lanes) +
+                                 static_cast<std::uint32_t>(std::countr_zero(acting)));
+                }
             },
             worthAThread);
     };
     begins.assign(identity.size() + 1, 0);
-    forEachActing([&](std::size_t place, std::uint32_t) { ++begins[place + 1]; });
+    forEachActing([&](std::uint32_t contact) { countUp(begins[store.firstOf(contact) + 1], isShared); });
     std::partial_sum(begins.begin(), begins.end(), begins.begin());
     std::vector<std::uint32_t> ends(begins.begin(), begins.end() - 1);
     entries.resize(begins.back());
     slots.resize(begins.back());
-    forEachActing([&](std::size_t place, std::uint32_t slot) {
-        const std::uint32_t at = ends[place]++;
-        entries[at] = entryOf(store, identity, store.contactAt(slot));
-        slots[at] = slot;
+    forEachActing([&](std::uint32_t contact) {
+        const std::uint32_t at = countUp(ends[store.firstOf(contact)], isShared);
+        entries[at] = entryOf(store, identity, contact);
+        slots[at] = static_cast<std::uint32_t>(store.slotOf(contact));
     });
+    inParts(
+        identity.size(), threads,
+        [&](int, std::size_t first, std::size_t end) {
+            std::vector<Filed> buffer;
+            for (std::size_t place = first; place < end; ++place)
+                sortAt(static_cast<std::uint32_t>(place), buffer);
+        },
+        worthAThread);
+}
+
+void RememberedContacts::sortAt(std::uint32_t place, std::vector<Filed>& buffer) {
+    const std::uint32_t begin = begins[place], end = begins[place + 1];
+    if (end - begin < 2) return;
+    buffer.clear();
+    for (std::uint32_t k = begin; k < end; ++k) buffer.emplace_back(entries[k], slots[k]);
+    std::ranges::sort(buffer, {}, [](const Filed& filed) { return orderOf(filed.first); });
+    for (std::uint32_t k = begin; k < end; ++k) std::tie(entries[k], slots[k]) = buffer[k - begin];
 }
 
 RememberedContacts::Entry RememberedContacts::entryOf(const ContactStore& store,
@@ -77,18 +100,15 @@ std::uint32_t RememberedContacts::find(std::uint32_t place, std::uint32_t wall, 
 }
 
 void RememberedContacts::goOn(std::uint32_t place, std::span<const NewPart> parts) {
-    std::vector<std::pair<Entry, std::uint32_t>> own;
     for (std::uint32_t k = begins[place]; k < begins[place + 1]; ++k) {
-        Entry entry = entries[k];
+        Entry& entry = entries[k];
         const auto found = std::ranges::find_if(parts, [&](const NewPart& part) {
             return entry.wall == part.wall + 1 && entry.other == part.before;
         });
         if (found != parts.end()) entry.other = found->now;
-        own.emplace_back(entry, slots[k]);
     }
-    std::ranges::sort(own, {}, [](const auto& pair) { return orderOf(pair.first); });
-    for (std::size_t k = 0; k < own.size(); ++k)
-        std::tie(entries[begins[place] + k], slots[begins[place] + k]) = own[k];
+    std::vector<Filed> buffer;
+    sortAt(place, buffer);
 }
 
 void RememberedContacts::add(const Entry& entry, const std::vector<double>& numbers, ContactMemory& memory) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "Kernel/Contacts/ContactStore.h"
@@ -74,6 +75,11 @@ public:
     static constexpr std::uint32_t none = ~std::uint32_t{0};
 
 private:
+    using Filed = std::pair<Entry, std::uint32_t>;  // and its place in the memory
+
+    /// Sorts the entries of the grain at a place.
+    /// @param buffer whose content is lost
+    void sortAt(std::uint32_t place, std::vector<Filed>& buffer);
     static Entry entryOf(const ContactStore& store, const std::vector<std::uint32_t>& identity,
                          std::uint32_t contact);
     [[nodiscard]] bool areSame(std::uint32_t a, std::uint32_t b, const ContactMemory& memory) const;

@@ -77,14 +77,15 @@ struct Listing {
     }
     ParticleStore& grains() { return scene.particleHandler.store(); }
 
+    /// m, from which two bodies act
+    double range(std::uint16_t a, std::uint16_t b, const Bodies& bodies) {
+        if constexpr (std::is_same_v<S, Attracting>) return scene.speciesHandler.mixture(a, b).range(bodies);
+        else return 0;  // bridges begin with a touch
+    }
+
     std::set<ContactKey> bruteForce() {
         std::set<ContactKey> result;
         const auto& g = grains();
-        const auto range = [&](std::uint16_t a, std::uint16_t b, const Bodies& bodies) {
-            if constexpr (std::is_same_v<S, Attracting>)
-                return scene.speciesHandler.mixture(a, b).range(bodies);
-            else return 0.0;  // bridges begin with a touch
-        };
         for (std::size_t i = 0; i < g.size(); ++i) {
             const TranslationRecord& a = g.translation[i];
             for (std::size_t j = 0; j < i; ++j) {
@@ -138,6 +139,26 @@ struct Listing {
         EXPECT_EQ(found, expected);
     }
 
+    /// No pair of a block can act before two bodies have approached by the block's gap; it is the smallest of
+    /// its pairs, rounded to a float and lowered a little.
+    void checkGaps() {
+        const auto& g = grains();
+        const auto& store = system.store();
+        std::vector<double> smallest(store.firstWallBlock(), infinity);
+        system.store().forEachListed([&](const Bucket& bucket, std::uint32_t c) {
+            if (bucket.wall >= 0) return;
+            const std::uint32_t i = store.firstOf(c), j = store.secondOf(c);
+            const TranslationRecord &a = g.translation[i], &b = g.translation[j];
+            const double gap = norm(box.nearest(a.position - b.position)) - a.radius - b.radius -
+                               range(g.species[i], g.species[j], {a.radius, b.radius});
+            smallest[c / Pack::lanes] = std::min(smallest[c / Pack::lanes], gap);
+        });
+        for (std::size_t block = 0; block < smallest.size(); ++block) {
+            EXPECT_LE(store.gaps[block], smallest[block]);
+            EXPECT_GE(store.gaps[block], smallest[block] - 2e-6 * std::abs(smallest[block]) - 2e-9 * skin);
+        }
+    }
+
     Simulation<S> scene;
     ContactSystem system;
     PeriodicBox box;
@@ -166,6 +187,7 @@ protected:
         EXPECT_EQ(listing.listed(), expected);
         EXPECT_GT(expected.size(), 0u);
         listing.checkSides();
+        listing.checkGaps();
         EXPECT_EQ(listing.listed(), expected);  // again, for grains that are sorted already
     }
 };

@@ -86,8 +86,14 @@ RunEnd runOnce(const Recipe& recipe, const JudgeOptions& options, const Way& way
     Watch watch(making, recipe.wrong.empty());
     const int between = stepsBetweenLooks(recipe);
     made->beforeStep = [&] { watch.begin(); };
+    const auto looksNow = [&] {
+        return scene.getNumberOfTimeSteps() % static_cast<std::size_t>(between) == 0;
+    };
+    made->afterMotion = [&] {
+        if (looksNow()) watch.lookAtList();
+    };
     made->afterStep = [&] {
-        if (scene.getNumberOfTimeSteps() % static_cast<std::size_t>(between) == 0) watch.look();
+        if (looksNow()) watch.look();
     };
     // An end that is wrong may be far away.
     made->stopAfter = way.stopAfter > 0 ? way.stopAfter : 2 * static_cast<std::size_t>(scales.steps);

@@ -18,6 +18,7 @@ public:
 
     Actions actions;
     std::function<void()> beforeStep, afterStep;  // of the one who watches
+    std::function<void()> afterMotion;            // the same, before features act after the step
     std::size_t stopAfter = 1'000'000;            // steps
     bool gathers = false;  // all grains come to all ranks before a hook that changes something
 
@@ -29,6 +30,7 @@ protected:
         for (auto action = first; action != last; ++action) action->second();
     }
     void actAfter() {
+        if (afterMotion) afterMotion();
         for (const auto& action : actions.afterEach) action();
         if (afterStep) afterStep();
     }

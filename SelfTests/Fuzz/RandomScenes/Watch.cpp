@@ -52,6 +52,11 @@ void Watch::look() {
     lookAtHeld();
 }
 
+void Watch::lookAtList() {
+    if (!right) return;
+    if (const std::string touch = unlisted.lookAt(making.scene); !touch.empty()) tell("list", touch);
+}
+
 void Watch::lookAtNumbers() {
     const ParticleStore& grains = making.scene.particleHandler.store();
     for (const std::uint32_t place : grains.place) {

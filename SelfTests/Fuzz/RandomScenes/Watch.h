@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "SelfTests/Fuzz/RandomScenes/Making.h"
+#include "SelfTests/Support/UnlistedTouches.h"
 
 namespace pendular::fuzz {
 
 /// Looks at a scene in its steps, and tells what must hold and does not: everything is a number, energy and
-/// liquid are accounted for, momentum stays where nothing outside acts, grains stay in a closed box, and held
-/// ones where they are.
+/// liquid are accounted for, momentum stays where nothing outside acts, grains stay in a closed box, held
+/// ones where they are, and bodies that touch are listed.
 class Watch {
 public:
     /// @param isRight no value of the scene is wrong
@@ -20,6 +21,8 @@ public:
     void begin();
     /// After a step.
     void look();
+    /// After a step, before something is changed.
+    void lookAtList();
     /// "energy ledger: ..."; the first of each kind.
     [[nodiscard]] const std::vector<std::string>& faults() const { return found; }
 
@@ -52,6 +55,7 @@ private:
     Sizes largest;
     std::size_t firstStep = 0;
     std::vector<std::string> found;
+    support::UnlistedTouches unlisted;
 };
 
 }  // namespace pendular::fuzz

@@ -1,0 +1,142 @@
+#include "Kernel/Contacts/DriftWatch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pendular {
+
+namespace {
+
+constexpr double diametersOfACell = 4;  // of the largest grain
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+Four leastOf(Four a, Four b) { return a < b ? a : b; }
+Four mostOf(Four a, Four b) { return a > b ? a : b; }
+double squaredShift(Four v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
+
+}  // namespace
+
+void DriftWatch::begin(const ParticleStore& grains, const PeriodicBox& box, double range) {
+    periodic = box;
+    known = false;
+    if (box.imagesMove || box.isSheared() || grains.size() == 0) return;
+    double largest = 0;
+    Four low{unlimited, unlimited, unlimited, 0}, high = -low;
+    start.resize(grains.size());
+    cellOf.resize(grains.size());
+    for (std::size_t k = 0; k < grains.size(); ++k) {
+        const Four position = fourOf(grains.translation[k].position);
+        start[k] = {position};
+        largest = std::max(largest, grains.translation[k].radius);
+        low = leastOf(low, position);
+        high = mostOf(high, position);
+    }
+    if (!divide({low[0], low[1], low[2]}, {high[0], high[1], high[2]}, grains.size(), largest)) return;
+    for (std::size_t k = 0; k < grains.size(); ++k)
+        cellOf[k] = cellAt(box.wrap(grains.translation[k].position));
+    // Farther than that it is not known which image has come.
+    halfReach = std::min(0.5 * (narrowest - 2 * largest - range), 0.4 * box.shortestLength());
+    known = halfReach > 0;
+}
+
+bool DriftWatch::divide(const Lengths& low, const Lengths& high, std::size_t grains, double largestRadius) {
+    const double most = 0.25 * static_cast<double>(grains) + 64;
+    const Lengths boxLengths{periodic.length.x, periodic.length.y, periodic.length.z},
+        boxLowest{periodic.lowest.x, periodic.lowest.y, periodic.lowest.z};
+    Lengths lengths{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        wraps[axis] = boxLengths[axis] > 0;
+        lowest[axis] = wraps[axis] ? boxLowest[axis] : low[axis];
+        lengths[axis] = wraps[axis] ? boxLengths[axis] : high[axis] - low[axis];
+        if (!(lengths[axis] < unlimited)) return false;
+    }
+    double size = diametersOfACell * 2 * largestRadius;
+    if (!(size > 0)) return false;
+    const auto cellCount = [&] {
+        double product = 1;
+        for (const double length : lengths) product *= std::floor(length / size) + 1;
+        return product;
+    };
+    while (cellCount() > most) size *= 1.25;
+    narrowest = size;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto whole = static_cast<std::uint32_t>(lengths[axis] / size);
+        // A periodic axis is divided evenly; of three cells all are neighbours.
+        cells[axis] = wraps[axis] ? std::max(1u, whole) : whole + 1;
+        inverseSize[axis] = wraps[axis] ? cells[axis] / lengths[axis] : 1 / size;
+        if (cells[axis] > 3) narrowest = std::min(narrowest, 1 / inverseSize[axis]);
+    }
+    narrowest *= 1 - 1e-6;  // rounded
+    extents.resize(std::size_t{cells[0]} * cells[1] * cells[2]);
+    return true;
+}
+
+std::uint32_t DriftWatch::cellAt(const Vector<double>& place) const {
+    std::array<std::uint32_t, 3> cell{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double at = (place.*vectorAxes[axis] - lowest[axis]) * inverseSize[axis];
+        cell[axis] = static_cast<std::uint32_t>(std::clamp(at, 0.0, cells[axis] - 1.0));
+    }
+    return indexOf(cell);
+}
+
+DriftWatch::Drift DriftWatch::drift(const ParticleStore& grains, std::span<const std::uint8_t> nearWalls) {
+    const Four nothing{unlimited, unlimited, unlimited, unlimited};
+    std::ranges::fill(extents, Extent{nothing, -nothing});
+    const Four whole{periodic.length.x, periodic.length.y, periodic.length.z, 0};
+    const Four half = 0.5 * Four{wraps[0] ? whole[0] : unlimited, wraps[1] ? whole[1] : unlimited,
+                                 wraps[2] ? whole[2] : unlimited, unlimited};
+    double farthest = 0, atWalls = 0;
+    for (std::size_t k = 0; k < std::min(grains.size(), start.size()); ++k) {
+        const TranslationRecord& grain = grains.translation[k];
+        if (grain.radius == 0 || cellOf[k] == none) continue;  // a gap, or another grain
+        Four shift = loadFour(grain.position) - start[k].position;
+        // Grains may have been brought back through a face.
+        shift = shift > half ? shift - whole : shift;
+        shift = shift < -half ? shift + whole : shift;
+        Extent& extent = extents[cellOf[k]];
+        extent.low = leastOf(extent.low, shift);
+        extent.high = mostOf(extent.high, shift);
+        const double squared = squaredShift(shift);
+        farthest = std::max(farthest, squared);
+        if (k < nearWalls.size() && nearWalls[k] != 0) atWalls = std::max(atWalls, squared);
+    }
+    // A box may be larger than what is in it.
+    return {std::sqrt(std::min(squaredApproach(), 4 * farthest)), std::sqrt(farthest), std::sqrt(atWalls)};
+}
+
+double DriftWatch::squaredApproach() const {
+    double largest = 0;
+    for (std::uint32_t z = 0; z < cells[2]; ++z)
+        for (std::uint32_t y = 0; y < cells[1]; ++y)
+            for (std::uint32_t x = 0; x < cells[0]; ++x)
+                largest = std::max(largest, squaredApproach({x, y, z}));
+    return largest;
+}
+
+double DriftWatch::squaredApproach(const std::array<std::uint32_t, 3>& cell) const {
+    const Extent own = extents[indexOf(cell)];
+    if (own.isEmpty()) return 0;
+    double largest = squaredShift(own.high - own.low);
+    for (int near = 14; near < 27; ++near) {  // half of the neighbours: the others find this one
+        std::array<std::uint32_t, 3> to{};
+        if (!neighbour(0, cell[0], near % 3 - 1, to[0]) || !neighbour(1, cell[1], near / 3 % 3 - 1, to[1]) ||
+            !neighbour(2, cell[2], near / 9 - 1, to[2]))
+            continue;
+        const Extent& other = extents[indexOf(to)];
+        if (other.isEmpty()) continue;
+        const Four most = mostOf(own.high - other.low, other.high - own.low);
+        largest = std::max(largest, squaredShift(most));
+    }
+    return largest;
+}
+
+bool DriftWatch::neighbour(std::size_t axis, std::uint32_t cell, int by, std::uint32_t& to) const {
+    const std::int64_t count = cells[axis], next = std::int64_t{cell} + by;
+    if ((next < 0 || next >= count) && !wraps[axis]) return false;
+    to = static_cast<std::uint32_t>((next + count) % count);
+    return true;
+}
+
+}  // namespace pendular
