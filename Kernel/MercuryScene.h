@@ -43,6 +43,7 @@ public:
     MercuryScene() {
         this->setIntegrator(integrators::velocityVerlet);
         this->addOutput(MercuryFiles(settings));
+        settings->readsLedger = readsLedger;
         settings->atSetUp = [this] {
             boundaryHandler.settle();
             requireOnePlane(this->particleHandler);
@@ -173,9 +174,15 @@ public:
     /// Adds the grains of a .data file, and takes its box: readMercuryData(). Their species must be there.
     void readDataFile(const std::filesystem::path& file);
 
-    /// J, what is stored in the contacts, their adhesion included (NAME.ene has that of the springs alone);
-    /// with keepEnergyLedger() or the file NAME.ene.
-    [[nodiscard]] double getElasticEnergy() const { return this->energyLedger().stored(); }
+    /// With keepEnergyLedger() or the file NAME.ene: a program in which this, getElasticEnergy() or
+    /// getTotalEnergy() is called keeps the ledger for that file, too. Without them the file has the energy
+    /// of the springs alone, which costs less.
+    [[nodiscard]] const EnergyLedger& energyLedger() const {
+        static_cast<void>(&isReader);
+        return Scene::energyLedger();
+    }
+    /// J, what is stored in the contacts, their adhesion included (NAME.ene has that of the springs alone).
+    [[nodiscard]] double getElasticEnergy() const { return energyLedger().stored(); }
     /// J, of the grains that can move, against the origin.
     [[nodiscard]] double getGravitationalEnergy() const {
         return this->getTotalMass() > 0
@@ -264,6 +271,12 @@ private:
             throw InputError(
                 fmt::format("Simulation: {} dimensions = {}; it must be 2 or 3.", what, dimensions));
     }
+
+    /// A program makes functions of a template, and variables that they name, only where it calls them: that
+    /// it has made this one is known before main().
+    static bool noteReader() { return readsLedger = true; }
+    static inline bool readsLedger = false;
+    static inline const bool isReader = noteReader();
 
     int systemDimensions = 3;
     bool plainForcesWereAsked = false;

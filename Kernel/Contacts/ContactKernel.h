@@ -675,8 +675,8 @@ private:
         else return 0;
     }
     /// A block without memory in which nothing acts yet: it is looked at again when two of its bodies can
-    /// have approached by the least (m) of what theirs have left. A list does not last longer than for its
-    /// skin, and where images move `unlisted` counts only for bodies that are not farther apart than it.
+    /// have approached by the least (m) of what theirs have left, but by no more than the skin: where images
+    /// move `unlisted` counts only for bodies that are not farther apart than it.
     [[gnu::noinline]] void sleepOn(std::size_t number, const Pack& left) {
         store.gaps[number] = unlisted + std::min(longest, smallestOf(left));
     }

@@ -142,9 +142,7 @@ public:
         ExactRows<ledgerEntries>& sums = notesLosses ? sumInOrder(scene, contacts, wear, worn)
                                                      : sumOnThreads(scene, contacts, threads, wear, worn);
         wear.give(worn, ranks);
-        std::vector<ExactSum*> columns;
-        for (ExactSum& column : sums.exact()) columns.push_back(&column);
-        ranks.addUp(columns);
+        addUp(sums, ranks);
         auto account = std::bit_cast<EnergyLedger>(sums.value());
         const LiquidEnergy byLiquid = contacts.takeLiquidEnergy();
         account.migration = byLiquid.migration;
@@ -213,6 +211,12 @@ private:
             if (k > 0) parts[0].sums.add(parts[k].sums);
         }
         return parts[0].sums;
+    }
+    static void addUp(Sums& sums, const AllRanks& ranks) {
+        if (!ranks.areSeveral()) return;
+        std::vector<ExactSum*> columns;
+        for (ExactSum& column : sums.exact()) columns.push_back(&column);
+        ranks.addUp(columns);
     }
     /// The same in the order of identities, in which grains are heated.
     Sums& sumInOrder(const StepOfScene& scene, ContactSystem& contacts, const WearOfStep& wear,

@@ -52,6 +52,8 @@ public:
 private:
     /// So many parts of up to 2^-7 of a power of two have a sum below that power.
     static constexpr std::size_t rowsOfABatch = 64;
+    /// Of so few rows the numbers themselves are as many as the parts, with which they go to the sums.
+    static constexpr std::size_t fewRows = 3;
     static constexpr std::size_t packs = (columns + Pack::lanes - 1) / Pack::lanes;
     using Lanes = std::array<double, Pack::lanes>;
 
@@ -62,7 +64,11 @@ private:
     }
 
     void takeInBatch() {
-        for (std::size_t pack = 0; pack < packs; ++pack) takeIn(pack);
+        for (std::size_t pack = 0; pack < packs; ++pack) {
+            if (rows > fewRows) takeIn(pack);
+            else
+                for (std::size_t row = 0; row < rows; ++row) addNumbers(pack, batch[row * packs + pack]);
+        }
         rows = 0;
     }
 

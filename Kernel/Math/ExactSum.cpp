@@ -6,6 +6,31 @@
 
 namespace pendular {
 
+void ExactSum::makeLong() {
+    if (isLong) return;
+    isLong = finite = true;
+    additions = 0;
+    digits.fill(0);
+    addToDigits(high);
+    addToDigits(low);
+}
+
+void ExactSum::addAsLong(double number) {
+    makeLong();
+    addToDigits(number);
+}
+
+/// @param other a long one
+void ExactSum::addLong(const ExactSum& other) {
+    makeLong();
+    ExactSum carried = other;
+    carried.carry();
+    carry();
+    for (std::size_t k = 0; k < digits.size(); ++k) digits[k] += carried.digits[k];
+    additions = 2;
+    finite &= other.finite;
+}
+
 /// Digits of 32 bits without a sign; the last one keeps that of the sum.
 void ExactSum::carry() {
     std::int64_t over = 0;
@@ -20,18 +45,20 @@ void ExactSum::carry() {
 
 void ExactSum::writeTo(std::span<std::int64_t, integerCount> integers) const {
     ExactSum carried = *this;
+    carried.makeLong();
     carried.carry();
     std::ranges::copy(carried.digits, integers.begin());
-    integers.back() = finite ? 0 : 1;
+    integers.back() = carried.finite ? 0 : 1;
 }
 
 void ExactSum::readFrom(std::span<const std::int64_t, integerCount> integers) {
+    isLong = true;
     std::copy(integers.begin(), integers.end() - 1, digits.begin());
     finite = integers.back() == 0;
     carry();
 }
 
-double ExactSum::value() const {
+double ExactSum::valueOfDigits() const {
     if (!finite) return std::numeric_limits<double>::quiet_NaN();
     ExactSum magnitude = *this;
     magnitude.carry();

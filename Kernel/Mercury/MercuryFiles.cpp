@@ -30,7 +30,7 @@ void MercuryFiles::addPictures(Scene& scene) const {
 
 void MercuryFiles::addFrames(Scene& scene) const {
     const MercuryFile &data = settings->data, &contacts = settings->fStat, &energies = settings->energies;
-    if (energies.isWritten()) scene.keepEnergyLedger();
+    if (energies.isWritten()) settings->readsLedger ? scene.keepEnergyLedger() : scene.keepSpringEnergy();
     // Files of one count and one form together.
     std::set<std::pair<std::size_t, FileType>> kinds;
     const auto kindOf = [](const MercuryFile& file) {

@@ -69,6 +69,7 @@ struct MercurySettings {
     MercuryFile data{"dataFile", FileType::ONE_FILE}, fStat{"fStatFile", FileType::ONE_FILE},
         energies{"eneFile", FileType::ONE_FILE}, restart{"restartFile", FileType::NO_FILE};
     bool picturesOfGrains = false, picturesOfWalls = false, picturesOfContacts = false;  // any: of all
+    bool readsLedger = false;  // the program does, beside its file of energies
     MercuryRandom random;
     std::function<void()> atSetUp;  // called when the driver has set all that it will
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/ParticleSum.h"
@@ -125,7 +127,10 @@ private:
     template <class Function>
     static double largestOfAll(const Grains& grains, int threads, const Integrator& scheme,
                                const Function& function) {
-        std::vector<double> largest(static_cast<std::size_t>(threads), 0);
+        // Of each thread; of one alone without memory that each step would ask the system for.
+        double alone = 0;
+        std::vector<double> ofThreads(threads > 1 ? static_cast<std::size_t>(threads) : 0);
+        const std::span<double> largest = threads > 1 ? std::span(ofThreads) : std::span(&alone, 1);
         // Grains of rigid bodies are moved with these.
         const bool hasBodies = !grains.bodies.empty();
         const std::vector<std::uint32_t>& own = grains.bodies.ownPlaces();
@@ -149,7 +154,7 @@ private:
                                       : ofAll.template operator()<false, isHeld>();
         };
         grains.held.empty() ? ofKind.template operator()<false>() : ofKind.template operator()<true>();
-        return *std::max_element(largest.begin(), largest.end());
+        return *std::ranges::max_element(largest);
     }
 
     /// How a grain moves, in registers; lane 3 is the number behind the vector in its record.

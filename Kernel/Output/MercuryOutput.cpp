@@ -12,7 +12,6 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Energy/EnergyLedger.h"
 #include "Kernel/Files/FileName.h"
 #include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Particles/ParticleHandler.h"
@@ -48,8 +47,8 @@ std::string energyLine(const Scene& scene) {
     const GrainSums sums = sumGrains(scene.particleHandler.store());
     return fmt::format("{} {} {} {} {} {}\n", scene.getTime(),
                        -dot(toVector(scene.getGravity()), sums.firstMoment.value()),
-                       sums.translationalEnergy.value(), sums.rotationalEnergy.value(),
-                       scene.energyLedger().springs(), words(sums.centreOfMass()));
+                       sums.translationalEnergy.value(), sums.rotationalEnergy.value(), scene.springEnergy(),
+                       words(sums.centreOfMass()));
 }
 
 }  // namespace
@@ -88,9 +87,10 @@ void MercuryOutput::write(const Scene& scene) {
         frame(contacts,
               [&] { writeContacts(scene.contacts(), grains, scene.wallHandler, box, scene.getTime()); });
     if (!energiesToo) return;
-    if (!scene.keepsEnergyLedger())
+    if (!scene.keepsSpringEnergy())
         throw InputError(
-            "MercuryOutput: the .ene file needs the elastic energy; call keepEnergyLedger(), or "
+            "MercuryOutput: the .ene file needs the elastic energy; call keepSpringEnergy() or "
+            "keepEnergyLedger(), or "
             "withEnergies(false) to do without the file.");
     frame(energies, [&] { energies.text(energyLine(scene)); });
 }

@@ -15,7 +15,7 @@ class Scene;
 class WallHandler;
 
 /// The files NAME.data, NAME.fstat and NAME.ene of MercuryDPM, for the tools of its users (XBalls, MercuryCG,
-/// scripts). Given to Simulation::addOutput(); the energies need keepEnergyLedger(). Source of the columns:
+/// scripts). Given to Simulation::addOutput(); the energies need keepSpringEnergy(). Source of the columns:
 /// MercuryDPM's documentation, "Visualising your results", 3D; see the README of this folder.
 class MercuryOutput {
 public:

@@ -39,7 +39,7 @@ public:
     void addUp(std::initializer_list<ExactSum*> sums) const { addUp(std::span(sums.begin(), sums.size())); }
     void addUp(ExactVectorSum& sum) const { addUp({&sum.x, &sum.y, &sum.z}); }
     [[nodiscard]] double sum(ExactSum own) const {
-        addUp({&own});
+        if (areSeveral()) addUp({&own});
         return own.value();
     }
     [[nodiscard]] std::uint64_t sum(std::uint64_t own) const;

@@ -184,7 +184,13 @@ HeldContacts Scene::getHeldContacts() const { return inside->contacts.getHeldCon
 
 void Scene::keepEnergyLedger(bool keep) {
     if (keep != keepsEnergyLedger()) requireSetUp("energy ledger");
-    inside->account.keep(keep);
+    if (!hasBegun()) inside->account.keep(keep);
+}
+
+void Scene::keepSpringEnergy() {
+    if (keepsSpringEnergy()) return;
+    requireSetUp("energy of the springs");
+    inside->account.keepSprings();
 }
 
 void Scene::setEvaporation(const Evaporation& law) {
@@ -246,7 +252,21 @@ const ContactSystem& Scene::contacts() const { return inside->contacts; }
 void Scene::gather() { inside->gather(); }
 RankCounts Scene::rankCounts() const { return inside->sharing ? inside->sharing->counts() : RankCounts{}; }
 bool Scene::keepsEnergyLedger() const { return inside->account.isKept(); }
-const EnergyLedger& Scene::energyLedger() const { return inside->account.energies(); }
+const EnergyLedger& Scene::energyLedger() const {
+    if (hasBegun() && inside->account.keepsSpringsAlone())
+        throw InputError(
+            "Simulation: the energy ledger is not known, as this run keeps the energy of the springs alone; "
+            "call keepEnergyLedger() at set-up.");
+    return inside->account.energies();
+}
+bool Scene::keepsSpringEnergy() const { return keepsEnergyLedger() || inside->account.keepsSpringsAlone(); }
+double Scene::springEnergy() const {
+    if (!keepsSpringEnergy())
+        throw InputError(
+            "Simulation: the energy of the springs is not known in this run; call keepSpringEnergy() or "
+            "keepEnergyLedger() at set-up.");
+    return inside->account.springs(inside->context);
+}
 double Scene::energyUnaccountedFor() const { return inside->account.changeSinceStart(); }
 const AdaptiveStep& Scene::adaptiveTimeStep() const { return inside->adaptive.step(); }
 const Integrator& Scene::getIntegrator() const { return inside->integrator; }

@@ -189,6 +189,8 @@ public:
     void warnOfUnlistedContacts() const;
     /// Keeps account of the energy; costs time, and is off by default.
     void keepEnergyLedger(bool keep = true);
+    /// Keeps what springEnergy() needs: less time than the ledger, which has it as well.
+    void keepSpringEnergy();
     /// Something of the driver's own that acts in each step, behind all parts of the kernel (StepPart.h says
     /// when): addPart<Draught>(speed). At set-up only. Throws InputError if there is a part of its name.
     template <std::derived_from<StepPart> Part, class... Arguments>
@@ -267,6 +269,11 @@ public:
     [[nodiscard]] const ContactSystem& contacts() const;
     [[nodiscard]] bool keepsEnergyLedger() const;
     [[nodiscard]] const EnergyLedger& energyLedger() const;
+    /// Whether springEnergy() is known.
+    [[nodiscard]] bool keepsSpringEnergy() const;
+    /// J, in the springs of the contacts, as EnergyLedger::springs(): summed up when it is called. Throws
+    /// InputError unless keepSpringEnergy() or keepEnergyLedger() was called at set-up.
+    [[nodiscard]] double springEnergy() const;
     /// J: what the ledger's total has changed by since the scene began, before any restart.
     [[nodiscard]] double energyUnaccountedFor() const;
 

@@ -56,6 +56,7 @@ void Scene::Inside::setUp() {
     account.noteWear(!wornWalls(scene.wallHandler).empty());
     scene.prepareOutputs();
     scene.requireTimeStep();
+    account.settle(sharing.has_value());
     account.show(context);
     laws().mixAll();
     ParticleHandler::Inside::settleSpin(particles);
@@ -202,7 +203,7 @@ void Scene::Inside::prepare() {
     scene.sprayHandler.close();
     parts.begin(context, scene.isRestarted());
     contacts.prepare(laws(), scene.wallHandler, box, SkinChoice::byCost(context.smallestRadius),
-                     account.acts(), films.areKept() ? &films : nullptr);
+                     account.takesSamples(), films.areKept() ? &films : nullptr);
     warn();
 }
 

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -68,6 +70,77 @@ TEST(ExactSum, doesNotDependOnTheOrderOrTheParts) {
         }
         EXPECT_EQ(whole.value(), expected);
     }
+}
+
+/// A sum that has had numbers beyond all short ones, and has their sum, 0.
+ExactSum longSum() {
+    ExactSum sum;
+    sum.add(0x1p1010);
+    sum.add(-0x1p1010);
+    return sum;
+}
+/// A random number with an exponent in a range around one.
+double randomNumber(std::mt19937_64& engine, int range, int around) {
+    const int exponent = static_cast<int>(engine() % static_cast<unsigned>(range)) - range / 2 + around;
+    return std::ldexp(static_cast<double>(engine()) - 0x1p63, exponent - 63);
+}
+
+// What the digits give is the same as what two doubles give, and where two do not hold it either.
+TEST(ExactSum, isTheSameShortAndLong) {
+    std::mt19937_64 engine(3);
+    for (const int around : {0, 300, -1050, 960})  // of the exponents: up to subnormal numbers and to 2^1000
+        for (const int range : {1, 30, 60, 90})
+            for (int round = 0; round < 500; ++round) {
+                ExactSum sum, digits = longSum();
+                std::vector<double> numbers;
+                for (int k = 0; k < 6; ++k) {
+                    const bool cancels = !numbers.empty() && engine() % 3 == 0;
+                    numbers.push_back(cancels ? -numbers[engine() % numbers.size()]
+                                              : randomNumber(engine, range, around));
+                    sum.add(numbers.back());
+                    digits.add(numbers.back());
+                    ASSERT_EQ(sum.value(), digits.value());
+                    ASSERT_EQ(std::signbit(sum.value()), std::signbit(digits.value()));
+                }
+            }
+}
+
+// Short with long, long with short, and through the integers that ranks send.
+TEST(ExactSum, addsShortAndLongSums) {
+    std::mt19937_64 engine(4);
+    for (int round = 0; round < 500; ++round) {
+        const double a = randomNumber(engine, 60, 0), b = randomNumber(engine, 60, 0);
+        ExactSum expected, shortA, shortB;
+        for (const double number : {a, b}) expected.add(number);
+        shortA.add(a), shortB.add(b);
+        ExactSum longA = longSum(), longB = longSum();
+        longA.add(a), longB.add(b);
+        for (const ExactSum* const one : {&shortA, &longA})
+            for (const ExactSum* const other : {&shortB, &longB}) {
+                ExactSum sum = *one;
+                sum.add(*other);
+                EXPECT_EQ(sum.value(), expected.value());
+                std::array<std::int64_t, ExactSum::integerCount> integers{}, others{};
+                one->writeTo(integers);
+                other->writeTo(others);
+                for (std::size_t k = 0; k < integers.size(); ++k) integers[k] += others[k];
+                sum.readFrom(integers);
+                EXPECT_EQ(sum.value(), expected.value());
+            }
+    }
+}
+
+TEST(ExactSum, ofNothingIsZeroWithoutASign) {
+    for (const auto& numbers : std::vector<std::vector<double>>{{}, {-0.0}, {1, -1}, {-0x1p-1074, 0x1p-1074}})
+        EXPECT_FALSE(std::signbit(sumOf(numbers)));
+    ExactSum again;
+    again.add(1e300);
+    again.add(1e-300);
+    again = {};
+    again.add(2);
+    EXPECT_EQ(again.value(), 2);
+    EXPECT_TRUE(std::isnan(sumOf({infinity, -infinity})));
+    EXPECT_TRUE(std::isnan(sumOf({std::nan("")})));
 }
 
 }  // namespace

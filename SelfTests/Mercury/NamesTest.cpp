@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <sstream>
@@ -377,6 +378,48 @@ TEST(MercuryNames, eachFileHasItsSaveCount) {
     EXPECT_FALSE(std::filesystem::exists(folder.name() + ".data.6"));
     EXPECT_FALSE(std::filesystem::exists(folder.name() + ".data"));
     EXPECT_EQ(frames(".fstat", " 1\n# "), 2u);  // at the start and at the end
+}
+
+/// Runs a pile of two grains that touch, with its energies in a file, in a scene of several types of species.
+template <class Scene>
+void runTwo(Scene& scene, const std::string& name) {
+    scene.setName(name);
+    auto species = scene.speciesHandler.copyAndAddObject(Friction());
+    species->setDensity(2000);
+    species->setStiffness(1000);
+    species->setSlidingStiffness(300);
+    species->setSlidingFrictionCoefficient(0.5);
+    SphericalParticle grain(species);
+    grain.setRadius(0.01);
+    for (const double side : {-1.0, 1.0}) {
+        grain.setPosition({side * 0.0099, 0, 0});
+        grain.setVelocity({0, side, 0});
+        scene.particleHandler.copyAndAddObject(grain);
+    }
+    scene.eneFile.setSaveCount(7);
+    scene.setTimeStep(1e-5);
+    scene.setTimeMax(5e-4);
+    scene.setQuiet();
+    scene.solve();
+}
+
+// Nothing else in this program has scenes of these types.
+TEST(MercuryNames, aProgramKeepsTheLedgerForItsFileIfItReadsIt) {
+    const TestFolder folder;
+    MercuryScene<LinearViscoelasticSpecies, Friction> unread;
+    MercuryScene<Friction, LinearViscoelasticSpecies> read;
+    runTwo(unread, folder.name() + "-unread");
+    runTwo(read, folder.name() + "-read");
+    EXPECT_FALSE(unread.keepsEnergyLedger());
+    EXPECT_TRUE(read.keepsEnergyLedger());
+    EXPECT_GT(read.getElasticEnergy(), 0);
+    EXPECT_EQ(unread.springEnergy(), read.getElasticEnergy());  // there is no adhesion
+    const std::string energies = support::contentOf(folder.name() + "-read.ene");
+    EXPECT_EQ(std::count(energies.begin(), energies.end(), '\n'), 1 + 9);  // 0, 7, ... 49 and 50
+    EXPECT_EQ(support::contentOf(folder.name() + "-unread.ene"), energies);
+    const Scene& scene = unread;
+    const std::string text = refusal([&] { static_cast<void>(scene.energyLedger()); });
+    EXPECT_TRUE(isOneSentence(text) && contains(text, "keepEnergyLedger()")) << text;
 }
 
 TEST(MercuryNames, energiesAddUp) {

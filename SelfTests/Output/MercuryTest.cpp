@@ -249,5 +249,56 @@ TEST(Mercury, energiesWithoutALedgerAreRefused) {
     EXPECT_TRUE(support::contains(support::refusal([&] { box.solve(); }), "keepEnergyLedger()"));
 }
 
+/// A box with frames, of which only the energy of the springs is kept, or the ledger.
+struct SpringBox : Box {
+    explicit SpringBox(const std::string& name, bool hasLedger = false) : Box(name, false) {
+        keepEnergyLedger(hasLedger);
+        keepSpringEnergy();
+        addOutput(MercuryOutput().withInterval(100 * 0x1p-17));
+    }
+};
+
+TEST(Mercury, energiesOfSpringsNeedNoLedger) {
+    const TestFolder folder;
+    SpringBox with(folder.name() + "-with", true), without(folder.name() + "-without");
+    with.solve(), without.solve();
+    EXPECT_TRUE(with.keepsEnergyLedger() && with.keepsSpringEnergy() && without.keepsSpringEnergy());
+    EXPECT_FALSE(without.keepsEnergyLedger());
+    const std::string energies = support::contentOf(folder.name() + "-with.ene");
+    EXPECT_EQ(std::count(energies.begin(), energies.end(), '\n'), 1 + 16);
+    EXPECT_EQ(support::contentOf(folder.name() + "-without.ene"), energies);
+    EXPECT_EQ(stateHash(with.particleHandler.store()), stateHash(without.particleHandler.store()));
+    EXPECT_GT(without.springEnergy(), 0);
+    EXPECT_EQ(without.springEnergy(), with.energyLedger().springs());
+    EXPECT_EQ(with.springEnergy(), with.energyLedger().springs());
+    const scenes::SettlingBox<Wet> nothing(3);
+    for (const std::string& text : {support::refusal([&] { static_cast<void>(without.energyLedger()); }),
+                                    support::refusal([&] { static_cast<void>(nothing.springEnergy()); })})
+        EXPECT_TRUE(support::isOneSentence(text) && support::contains(text, "keepEnergyLedger()")) << text;
+}
+
+TEST(Mercury, energiesOfSpringsAreTheSameAfterARestart) {
+    const TestFolder folder;
+    const std::string whole = folder.name() + "-whole", part = folder.name() + "-part";
+    SpringBox(whole).solve();
+    SpringBox first(part), second(part), ledger(part, true);
+    first.setTimeMax(777 * 0x1p-17);
+    first.keepRestartFile();
+    first.solve();
+    ledger.restartFrom(ledger.restartFile());
+    const std::string text = support::refusal([&] { ledger.initialise(); });
+    EXPECT_TRUE(support::contains(text, "ledgerIsWhole is 0 in the file and 1 in the scene")) << text;
+    second.restartFrom(second.restartFile());
+    second.solve();
+    EXPECT_EQ(support::contentOf(whole + ".ene"), support::contentOf(part + ".ene"));
+
+    SpringBox kept(folder.name() + "-kept", true), springs(folder.name() + "-springs");
+    kept.initialise();
+    kept.writeRestart(kept.restartFile());
+    springs.restartFrom(kept.restartFile());
+    const std::string other = support::refusal([&] { springs.initialise(); });
+    EXPECT_TRUE(support::contains(other, "ledgerIsWhole is 1 in the file and 0 in the scene")) << other;
+}
+
 }  // namespace
 }  // namespace pendular::mercuryTest

@@ -188,6 +188,22 @@ def test_fields_have_the_mass_of_the_grains():
     assert np.nansum(density) * cell == pytest.approx(scene.mass.sum(), rel=1e-3)
 
 
+def test_spring_energy_is_that_of_the_ledger():
+    scenes = tower(), tower()
+    scenes[0].keep_energy_ledger()
+    scenes[1].keep_spring_energy()
+    while scenes[0].steps < 100000 and (scenes[0].steps == 0 or scenes[0].spring_energy == 0):  # until two touch
+        for scene in scenes:
+            scene.run(steps=20)
+    ledger = scenes[0].energy()
+    springs = ledger["elastic_J"] + ledger["tangential_elastic_J"] + ledger["rolling_elastic_J"] + ledger["torsion_elastic_J"]
+    assert scenes[1].spring_energy == scenes[0].spring_energy == springs > 0
+    with pytest.raises(pendular.InputError, match="keep_energy_ledger"):
+        scenes[1].energy()
+    with pytest.raises(pendular.InputError, match="keep_spring_energy"):
+        tower().spring_energy
+
+
 def test_energy_closes():
     scene = tower()
     scene.keep_energy_ledger()

@@ -4,6 +4,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -26,6 +27,14 @@ def test_level_of_the_processor(tmp_path, flags, best):
 
 def test_level_where_the_system_tells_nothing(tmp_path):
     assert levels(str(tmp_path / "nothing")) == ["x86-64-v2"]
+
+
+def test_the_package_imports_only_what_each_program_needs():
+    """What only the browser, refusals and pictures need takes longer than all else but the kernel."""
+    code = "import sys, numpy; before = set(sys.modules); import pendular; print(*set(sys.modules) - before)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert "pendular._kernel" in done.stdout.split()
+    assert not {"subprocess", "shutil", "difflib", "urllib.parse", "pandas", "matplotlib"} & set(done.stdout.split())
 
 
 def test_folder_of_the_module(tmp_path, monkeypatch):

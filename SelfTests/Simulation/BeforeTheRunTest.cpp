@@ -313,6 +313,7 @@ std::vector<std::pair<std::string, std::vector<std::pair<std::string, Call>>>> c
           {"liquidOfWall", [](Scene& scene) { static_cast<void>(scene.liquidOfWall(0)); }},
           {"liquidOfWall, of none", [](Scene& scene) { static_cast<void>(scene.liquidOfWall(9)); }},
           {"energyLedger", [](Scene& scene) { static_cast<void>(scene.energyLedger().total()); }},
+          {"springEnergy", [](Scene& scene) { static_cast<void>(scene.springEnergy()); }},
           {"energyUnaccountedFor", [](Scene& scene) { static_cast<void>(scene.energyUnaccountedFor()); }},
           {"addPartsTo",
            [](Scene& scene) {

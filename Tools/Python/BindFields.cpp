@@ -134,6 +134,13 @@ void bindFields(SceneClass& scene) {
         .def(
             "keep_energy_ledger", [](PythonScene& s) { s.scene().keepEnergyLedger(); },
             comment("Scene::keepEnergyLedger"))
+        .def(
+            "keep_spring_energy", [](PythonScene& s) { s.scene().keepSpringEnergy(); },
+            "Keeps the energy of the springs of contacts (spring_energy), which takes less time than the "
+            "ledger.")
+        .def_property_readonly(
+            "spring_energy", [](const PythonScene& s) { return s.scene().springEnergy(); },
+            "J, in the springs of the contacts. After keep_spring_energy() or keep_energy_ledger().")
         .def("energy", &energies,
              "The energies of the ledger (J) by their names, as in NAME-energy.csv: what the scene has, has "
              "lost, "

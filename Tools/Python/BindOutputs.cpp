@@ -131,7 +131,7 @@ void bindOutputs(SceneClass& scene) {
         .def(
             "write_mercury",
             [](PythonScene& s, std::size_t steps) {
-                s.scene().addOutput(MercuryOutput().withEnergies(s.scene().keepsEnergyLedger()));
+                s.scene().addOutput(MercuryOutput().withEnergies(s.scene().keepsSpringEnergy()));
                 s.scene().setSaveCount(steps);
             },
             py::arg("steps"), comment("MercuryOutput", "steps: between two frames."))

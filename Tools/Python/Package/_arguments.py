@@ -1,7 +1,6 @@
 """What is said of arguments that a function of the compiled module does not take: one sentence, which names the argument."""
 from __future__ import annotations
 
-import difflib
 import operator
 import os
 import re
@@ -117,6 +116,8 @@ def _fault(name: str, takes: List[Argument], given: Tuple[Any, ...], named: Dict
     takes_any = bool(takes) and takes[-1].name.startswith("**")
     for key in named:
         if key not in names and not takes_any:
+            import difflib  # for mistakes only
+
             near = difflib.get_close_matches(key, names, 1)
             return f"{name}() has no argument {key}; {f'did you mean {near[0]}? I' if near else 'i'}{has[1:]}."
     if len(given) > len(by_place):

@@ -2,14 +2,15 @@
 import atexit
 import os
 import re
-import shutil
-import subprocess
 import sys
-from typing import Any, Dict, List, Optional, Tuple, Union
-from urllib.parse import quote
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union
 
 from . import _kernel
 from .results import Path
+
+# What only view() needs it imports itself: these modules take longer than all others of the package.
+if TYPE_CHECKING:
+    import subprocess
 
 _servers: Dict[Tuple[str, str], Tuple["subprocess.Popen[str]", str]] = {}  # by folder and frame_of: with its address
 
@@ -20,6 +21,8 @@ def _command() -> List[str]:
     program = os.environ.get("PENDULAR_VIEW") or os.path.join(build, "Tools", "view")
     if os.access(program, os.X_OK):
         return [program]
+    import shutil
+
     installed = shutil.which("pendular")
     if installed:
         return [installed, "view"]
@@ -45,6 +48,8 @@ def _text_of(name: str) -> str:
 
 def _start(folder: str, frame_of: str) -> Tuple["subprocess.Popen[str]", str]:
     """It ends with this process: then nothing more can come from its input."""
+    import subprocess
+
     server = subprocess.Popen([*_command(), folder, "--end-with-input", "--frame-of", frame_of], stdin=subprocess.PIPE,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
     assert server.stdout is not None and server.stderr is not None
@@ -70,6 +75,8 @@ def view(run: Union[Path, "_kernel.Scene"] = ".", *, height: int = 700, frame_of
     frame, pixels. frame_of: the address of the notebook, as far as the host's name and port; the name must be that of the
     browser's address line, or it keeps back the cookie.
     """
+    from urllib.parse import quote
+
     folder, name = _place(run)
     server = _servers.get((folder, frame_of))
     if server is None or server[0].poll() is not None:

@@ -1,7 +1,6 @@
 """The scene: what _kernel.Scene has, and what is shorter in Python."""
 from __future__ import annotations
 
-import difflib
 import sys
 from typing import TYPE_CHECKING, Any, Callable, List, Optional, Sequence, Union
 
@@ -103,6 +102,8 @@ class Scene(_kernel.Scene):
                 if fixed:
                     raise AttributeError(f"A Scene's {fixed}.")
             elif name not in self.__dict__:
+                import difflib  # for attributes of your own, and mistakes
+
                 near = _OTHER_WORDS.get(name.lower()) or difflib.get_close_matches(name, dir(type(self)), 1, 0.8)
                 if near:
                     fixed = _why_fixed(type(self), near[0])
