@@ -259,7 +259,9 @@ endif()
 if(TARGET PendularCommandLine AND NOT PENDULAR_FUZZ)  # whose readers are a library of their own
     file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/SelfTests/CoreAlone.cpp" CONTENT "int main() {}\n")
     add_executable(CoreAlone "${PROJECT_BINARY_DIR}/SelfTests/CoreAlone.cpp")
-    target_link_libraries(CoreAlone PRIVATE "$<LINK_LIBRARY:WHOLE_ARCHIVE,PendularCommandLine,PendularCore>")
+    target_link_libraries(CoreAlone PRIVATE
+        "-Wl,--whole-archive,$<TARGET_FILE:PendularCommandLine>,$<TARGET_FILE:PendularCore>,--no-whole-archive")
+    target_link_libraries(CoreAlone PRIVATE PendularCommandLine)  # and what they need, behind them
     add_test(NAME CoreAlone COMMAND CoreAlone)
     add_test(NAME CoreDrivers COMMAND "${CMAKE_COMMAND}" -D "source=${PROJECT_SOURCE_DIR}" -D "build=${PROJECT_BINARY_DIR}"
              -P "${PROJECT_SOURCE_DIR}/Tools/CMake/CheckCoreDrivers.cmake")
