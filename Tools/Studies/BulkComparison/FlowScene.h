@@ -36,6 +36,7 @@ inline BulkScene flowSceneOf(std::string_view name, std::size_t grains) {
 inline std::vector<PeerGrain> grainsAfter(const BulkScene& scene, double seconds, bool isClosed,
                                           int threads) {
     PeerScene running(scene, isClosed);
+    running.setQuiet();
     running.setTimeStep(flowStep());
     running.acceptUnstableTimeStep();
     running.setNumberOfThreads(threads);
