@@ -43,8 +43,8 @@ public:
     MercuryScene() {
         this->setIntegrator(integrators::velocityVerlet);
         this->addOutput(MercuryFiles(settings));
-        settings->readsLedger = readsLedger;
         settings->atSetUp = [this] {
+            settings->readsLedger = readsLedger;  // not before main(): a scene may be made then
             boundaryHandler.settle();
             requireOnePlane(this->particleHandler);
             findOwnForces();

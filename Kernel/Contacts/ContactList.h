@@ -56,7 +56,10 @@ public:
     /// Sorts pairs by the gaps that are expected after this time (s), if grains go on as they move now.
     void setHorizon(double time) { horizon = time; }
     /// Notes which grains are near a wall: by so much (m) farther than the skin.
-    void noteGrainsNearWalls(double farther) { nearWalls.farther = farther; }
+    void noteGrainsNearWalls(double farther) {
+        nearWalls.farther = farther;
+        nearWalls.times = laws.formsAtContact ? 2 : 1;
+    }
     [[nodiscard]] ListLife::NearWalls takeNearWalls() { return std::move(nearWalls); }
     /// The cells in which the list was made.
     [[nodiscard]] NeighbourSearch takeSearch() { return std::move(*found); }

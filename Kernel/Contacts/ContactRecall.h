@@ -23,8 +23,8 @@ public:
 
     /// @param old those of the last list, whose memory the store has
     /// @param apart m, about by how much bodies that touched in the last step can be apart now: pairs that
-    /// are farther apart are looked up only if some contacts are not found among the others Returns how many
-    /// of them are listed again.
+    /// are farther apart are looked up only if some contacts are not found among the others
+    /// @return how many of them are listed again
     std::size_t into(ContactStore& store, const RememberedContacts& old, double apart = infinity) const;
 
 private:

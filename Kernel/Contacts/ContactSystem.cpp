@@ -274,7 +274,9 @@ double ContactSystem::goThroughFaces(Grains& grains, std::span<const std::uint32
     FacePassage passage(contacts, *walls, *species, hasEnds, ofHeld);
     passage.leave(grains, places);
     bringBack();
-    passage.arrive(grains, filmReach() + skin.width(), time);
+    // Behind the face a wall may be near that was not seen from before it. The grain may have come by a skin,
+    // and may go by two until it is a skin away from where it was listed.
+    passage.arrive(grains, filmReach() + 2 * std::max(life.width(), skin.width()), time);
     for (const std::uint32_t place : places) life.noteNearWall(place);
     if (!allRanks.any(passage.needsList())) return 0;
     ExactSum stored;

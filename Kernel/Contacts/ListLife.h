@@ -18,6 +18,7 @@ public:
     /// Which grains are near a wall when contacts are listed.
     struct NearWalls {
         double farther = 0;  // m, beyond the skin: other grains are farther than that from all walls
+        double times = 1;    // 2 where a bridge may form on a part near those that are listed: half the skin
         std::vector<std::uint8_t> flags;  // of each place; none where there are no walls
     };
 
@@ -56,12 +57,14 @@ public:
         const DriftWatch::Drift found = drift.drift(grains, nearWalls.flags);
         approached = found.approach;
         if (!nearWalls.flags.empty())
-            approached = std::max(
-                {approached, found.atWalls + wallsMoved, found.farthest + wallsMoved - nearWalls.farther});
+            approached = std::max({approached, nearWalls.times * found.atWalls + wallsMoved,
+                                   nearWalls.times * found.farthest + wallsMoved - nearWalls.farther});
         left = std::min(skin - approached, 2 * (drift.reach() - found.farthest));
         unseen = 0;
         return !(left > worthALook * skin);
     }
+    /// m, with which contacts were listed.
+    [[nodiscard]] double width() const { return skin; }
     /// m, by which bodies that are not listed can have approached when isOver() was asked last.
     [[nodiscard]] double approach() const { return approached; }
 

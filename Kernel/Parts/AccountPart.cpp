@@ -78,7 +78,7 @@ void AccountPart::visitSetting(StateArchive& archive, StepContext& /*scene*/) {
     compareWhole(archive, !asksForSprings());
     archive.finite("ledger", ledger);
     archive.finite("energyAtStart", energyAtStart);
-    if (kept) account.visitState(archive);
+    if (asked == Asked::Ledger) account.visitState(archive);  // on any number of ranks
 }
 
 /// As the ledger has it: each kind of spring is rounded once.

@@ -26,7 +26,8 @@ public:
     void addTo(SummaryRows& rows) const override;
 
     void keep(bool keepIt) {
-        asked = keepIt ? Asked::Ledger : Asked::Nothing;
+        if (keepIt) asked = Asked::Ledger;
+        else if (asked == Asked::Ledger) asked = Asked::Nothing;
         kept = keepIt;
     }
     /// Keeps what the sum of springs needs, unless a ledger is kept, which has it.

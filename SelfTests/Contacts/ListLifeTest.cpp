@@ -169,6 +169,33 @@ TEST(ListLife, endsBeforeAGrainBehindAFaceTouches) {
     }
 }
 
+// A wall behind a periodic face is not seen from before it. The grain passes where it is more than a skin
+// from the wall, and falls by two skins from there while it is never a skin from where it was listed.
+TEST(ListLife, endsBeforeAGrainTouchesAWallWithEndsBehindAFace) {
+    constexpr double length = 12 * r, begin = 1.0005 * r, time = 5e-4;  // m, m, s
+    FilledScene scene;
+    scene.setTimeStep(1e-6);
+    scene.acceptUnstableTimeStep();
+    scene.setTimeMax(1);
+    scene.setPeriodic(0, 0, length);
+    scene.addMesh({begin, -3 * r, -3 * r}, {begin + 4 * r, 0, 3 * r});
+    auto grain = scene.grain();
+    grain.setRadius(r);
+    grain.setPosition({length - 0.0005 * r, 0.392 * r, 0.1 * r});
+    grain.setVelocity({-0.0327 * r / time, 0.1537 * r / time, 0});
+    scene.particleHandler.copyAndAddObject(grain);
+    scene.setGravity({0.0678 * r / (time * time), -0.1674 * r / (time * time), 0});
+    scene.initialise();
+    support::UnlistedTouches unlisted;
+    bool touches = false;
+    for (int k = 0; k < 1400; ++k) {
+        scene.step();
+        ASSERT_EQ(unlisted.lookAt(scene), "") << "step " << k;
+        touches = touches || scene.contacts().counts().touching > 0;
+    }
+    EXPECT_TRUE(touches);
+}
+
 TEST(ListLife, endsBeforeGrainsThatComeTouch) {
     Flow scene(5, {0, 0, -0.5}, 0.3);
     scene.setGravity({0, 0, -9.81});

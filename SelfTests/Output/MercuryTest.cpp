@@ -277,6 +277,13 @@ TEST(Mercury, energiesOfSpringsNeedNoLedger) {
         EXPECT_TRUE(support::isOneSentence(text) && support::contains(text, "keepEnergyLedger()")) << text;
 }
 
+TEST(Mercury, energiesOfSpringsStayWhereTheLedgerIsNotKept) {
+    scenes::SettlingBox<Wet> scene(3);
+    scene.keepSpringEnergy();
+    scene.keepEnergyLedger(false);
+    EXPECT_TRUE(scene.keepsSpringEnergy());
+}
+
 TEST(Mercury, energiesOfSpringsAreTheSameAfterARestart) {
     const TestFolder folder;
     const std::string whole = folder.name() + "-whole", part = folder.name() + "-part";

@@ -54,13 +54,16 @@ protected:
     RunTable table;
 };
 
-/// Of wet grains.
+/// Of wet grains, with the energy of their springs.
 class SharedRun : public RunWithFiles<scenes::SettlingBox<Wet>> {
 public:
     SharedRun(const std::filesystem::path& folder, std::size_t steps, int finer = 1)
-        : RunWithFiles(folder, steps, "time_s,z_m,J", finer) {}
+        : RunWithFiles(folder, steps, "time_s,z_m,J,springs_J", finer) {
+        keepSpringEnergy();
+    }
     void writeOutput() override {
-        table.row(getTime(), particleHandler.getObject(3).getPosition().z(), getKineticEnergy());
+        table.row(getTime(), particleHandler.getObject(3).getPosition().z(), getKineticEnergy(),
+                  springEnergy());
     }
 };
 
