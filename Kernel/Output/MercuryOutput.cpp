@@ -89,8 +89,9 @@ void MercuryOutput::write(const Scene& scene) {
     if (!energiesToo) return;
     if (!scene.keepsSpringEnergy())
         throw InputError(
-            "MercuryOutput: the .ene file needs the elastic energy; call keepSpringEnergy(), or "
-            "withEnergies(false) to do without the file.");
+            "MercuryOutput: the .ene file needs the elastic energy; call keepSpringEnergy() or "
+            "keepEnergyLedger(); "
+            "withEnergies(false) does without the file.");
     frame(energies, [&] { energies.text(energyLine(scene)); });
 }
 

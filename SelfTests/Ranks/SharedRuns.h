@@ -54,16 +54,13 @@ protected:
     RunTable table;
 };
 
-/// Of wet grains, with the energy of their springs.
+/// Of wet grains.
 class SharedRun : public RunWithFiles<scenes::SettlingBox<Wet>> {
 public:
     SharedRun(const std::filesystem::path& folder, std::size_t steps, int finer = 1)
-        : RunWithFiles(folder, steps, "time_s,z_m,J,springs_J", finer) {
-        keepSpringEnergy();
-    }
+        : RunWithFiles(folder, steps, "time_s,z_m,J", finer) {}
     void writeOutput() override {
-        table.row(getTime(), particleHandler.getObject(3).getPosition().z(), getKineticEnergy(),
-                  springEnergy());
+        table.row(getTime(), particleHandler.getObject(3).getPosition().z(), getKineticEnergy());
     }
 };
 
