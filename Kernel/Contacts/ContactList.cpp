@@ -17,15 +17,6 @@ bool isBridged(const RememberedContacts::Entry& entry) {
     return (entry.state & RememberedContacts::bridged) != 0;
 }
 
-/// Whether some pairs act before they touch: at a distance, or where their films meet.
-bool anyActsBeforeTouch(const ContactLaws& laws) {
-    const auto count = static_cast<int>(laws.speciesCount());
-    bool any = laws.actsApart;
-    for (int a = 0; a < count; ++a)
-        for (int b = a; b < count; ++b) any = any || laws.filmContactGap(a, b) > 0;
-    return any;
-}
-
 }  // namespace
 
 double largestRange(const ContactLaws& laws, const ParticleStore& grains) {
@@ -100,7 +91,6 @@ void ContactList::listInParts(std::size_t grainCount, Function&& function) {
 
 void ContactList::findPairs(const Grains& grains, const RememberedContacts& old, std::size_t pairsBefore,
                             bool keepsCells) {
-    actBeforeTouch = anyActsBeforeTouch(laws);
     const double margin = skin + std::max(reachOfAll, laws.actsApart ? largestRange(laws, grains) : 0);
     const PairSearch search(grains.translation, margin, periodic, threads);
     const bool usable = search.isUsable();
@@ -151,7 +141,7 @@ void ContactList::addPair(Groups& all, const Grains& grains, std::uint32_t i, st
     const std::size_t group = low * laws.speciesCount() - low * (low + 1) / 2 + high;
     const bool isOrdered = grains.identity[i] < grains.identity[j];
     const std::uint32_t first = isOrdered ? i : j, second = isOrdered ? j : i;
-    if (actBeforeTouch) gap -= actsFrom(grains, first, second);
+    if (laws.actsApart || reachOfAll > 0) gap -= actsFrom(grains, first, second);
     all[group].contacts.push_back(
         {first, second, static_cast<float>(gap), static_cast<float>(gap - horizon * closing)});
 }

@@ -101,7 +101,7 @@ private:
 
     /// The gap of the surfaces (m).
     double gapOf(const Grains& grains, std::uint32_t i, std::uint32_t j) const;
-    /// How far two grains must approach (m) before they act, where they act before they touch.
+    /// The gap (m) at which two grains begin to act: at a distance, or where their films meet.
     double actsFrom(const Grains& grains, std::uint32_t first, std::uint32_t second) const;
 
     /// Contacts that count on another rank, whose body 1 is a ghost, get groups of their own.
@@ -122,8 +122,7 @@ private:
     double reachOfAll, reachOfFilms;
     ListedOfHeld listsOfHeld;
     ListLife::NearWalls nearWalls;
-    double horizon = 0;           // s
-    bool actBeforeTouch = false;  // some pairs
+    double horizon = 0;  // s
     std::optional<NeighbourSearch> found;
     std::vector<std::uint32_t> formerPlace;  // of the grain at each place
     Groups groups;

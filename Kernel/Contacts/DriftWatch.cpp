@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "Kernel/Contacts/CellGrid.h"
+
 namespace pendular {
 
 namespace {
@@ -53,12 +55,7 @@ bool DriftWatch::divide(const Lengths& low, const Lengths& high, std::size_t gra
     }
     double size = diametersOfACell * 2 * largestRadius;
     if (!(size > 0)) return false;
-    const auto cellCount = [&] {
-        double product = 1;
-        for (const double length : lengths) product *= std::floor(length / size) + 1;
-        return product;
-    };
-    while (cellCount() > most) size *= 1.25;
+    size *= enlargementOfCells(lengths, size, most);
     narrowest = size;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto whole = static_cast<std::uint32_t>(lengths[axis] / size);

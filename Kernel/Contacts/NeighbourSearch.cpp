@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "Kernel/Base/Parallel.h"
+#include "Kernel/Contacts/CellGrid.h"
 
 namespace pendular {
 
@@ -35,19 +36,6 @@ constexpr std::size_t cellsWorthAThread = 2048;  // grains whose cells are found
 
 /// A few cells for each item.
 double mostCells(std::size_t items) { return 4.0 * static_cast<double>(items) + 64; }
-
-/// The factor by which to enlarge cells so that there are no more than a few of them for each item.
-double enlargement(const std::array<double, 3>& lengths, double cellSize, std::size_t items) {
-    const double most = mostCells(items);
-    double factor = 1;
-    const auto cells = [&] {
-        double product = 1;
-        for (const double length : lengths) product *= std::floor(length / (cellSize * factor)) + 1;
-        return product;
-    };
-    while (cells() > most) factor *= 1.25;
-    return factor;
-}
 
 /// The ranks of boxes of a grid along Morton's curve: boxes that are near in space mostly have near ranks.
 /// Two boxes are compared along the axis in whose numbers the highest bit differs, as of Chan (2002), Proc.
@@ -94,7 +82,7 @@ std::vector<std::uint32_t> spatialOrder(std::span<const TranslationRecord> grain
     const Extent e = extentOf(grains, [](const TranslationRecord& g) { return g.position; });
     std::array<double, 3> lengths{};
     for (int axis = 0; axis < 3; ++axis) lengths[axis] = e.highest[axis] - e.lowest[axis];
-    const double size = cellSize * enlargement(lengths, cellSize, grains.size());
+    const double size = cellSize * enlargementOfCells(lengths, cellSize, mostCells(grains.size()));
     std::array<std::uint32_t, 3> tiles{};
     for (int axis = 0; axis < 3; ++axis)
         tiles[axis] = static_cast<std::uint32_t>(lengths[axis] / size) / 4 + 1;
@@ -153,14 +141,7 @@ double NeighbourSearch::crowding() const {
     return largest;
 }
 
-double NeighbourSearch::Level::crowding() const {
-    double pairs = 0;
-    for (std::size_t c = 1; c < begins.size(); ++c) {
-        const double grains = begins[c] - begins[c - 1];
-        pairs += grains * grains;
-    }
-    return members.empty() ? 0 : pairs / static_cast<double>(members.size());
-}
+double NeighbourSearch::Level::crowding() const { return crowdingOfCells(begins); }
 
 void NeighbourSearch::Level::build(const Points& points, const PeriodicBox& box, int threads) {
     for (const std::uint32_t k : members) largest = std::max(largest, points[k].size);
@@ -174,11 +155,9 @@ void NeighbourSearch::Level::build(const Points& points, const PeriodicBox& box,
         lengths[axis] = wraps[axis] ? along(box.length, axis) : e.highest[axis] - e.lowest[axis];
     }
     lowest = {low[0], low[1], low[2]};
-    const double factor = enlargement(lengths, 2 * largest, members.size());
+    const double factor = enlargementOfCells(lengths, 2 * largest, mostCells(members.size()));
     divide(lengths, 2 * largest * factor);
     sort(points, threads);
-    // Some ten of the smallest grains of a level fit into a cell.
-    constexpr double crowded = 40;
     if (factor == 1 || box.isSheared() || crowding() < crowded) return;
     divideRepeatedly(lengths, 2 * largest);
     sort(points, threads);

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "Kernel/Base/Parallel.h"
+#include "Kernel/Contacts/CellGrid.h"
 
 namespace pendular {
 
@@ -91,9 +92,7 @@ bool PairSearch::makeGrid(Grid& grid, std::span<const TranslationRecord> grains,
     for (const std::uint32_t cell : cells) ++grid.begins[cell + 1];
     grid.begins[0] = grid.begin;
     std::partial_sum(grid.begins.begin(), grid.begins.end(), grid.begins.begin());
-    // Some ten of the smallest grains of a level fit into a cell.
-    constexpr double crowded = 40;
-    if (wider > 1 && grid.crowding() > crowded) return false;
+    if (wider > 1 && crowdingOfCells(grid.begins) > crowded) return false;
     std::vector<std::uint32_t> next(grid.begins.begin(), grid.begins.end() - 1);
     for (std::size_t k = 0; k < members.size(); ++k) {
         TranslationRecord grain = grains[members[k]];
@@ -116,13 +115,13 @@ void PairSearch::fillColumn(std::uint32_t column, const TranslationRecord& grain
 /// is looked at as a whole: some more cells than grains. Where that would be too many they are wider.
 double PairSearch::Grid::divide(const std::array<double, 3>& lengths, std::size_t members) {
     const double most = 8.0 * static_cast<double>(members) + 256, reach = 2 * largest;
-    const auto cellsWith = [&](double width, double alongX) {
-        return (std::floor(lengths[0] / width * alongX) + 1) * (std::floor(lengths[1] / width) + 1) *
-               (std::floor(lengths[2] / width) + 1);
+    const auto cellsWith = [&](double alongX) {
+        return (std::floor(alongX * lengths[0] / reach) + 1) * (std::floor(lengths[1] / reach) + 1) *
+               (std::floor(lengths[2] / reach) + 1);
     };
-    double wider = 1, alongX = 4;
-    while (alongX > 1 && cellsWith(reach, alongX) > most) alongX -= 1;
-    while (cellsWith(wider * reach, alongX) > most) wider *= 1.25;
+    double alongX = 4;
+    while (alongX > 1 && cellsWith(alongX) > most) alongX -= 1;
+    const double wider = enlargementOfCells({alongX * lengths[0], lengths[1], lengths[2]}, reach, most);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double width = wider * reach / (axis == 0 ? alongX : 1);
         // A periodic axis is divided evenly, so that its last cell is whole.
@@ -132,15 +131,6 @@ double PairSearch::Grid::divide(const std::array<double, 3>& lengths, std::size_
         inverseSize[axis] = isPeriodic ? cells[axis] / lengths[axis] : 1 / width;
     }
     return wider;
-}
-
-double PairSearch::Grid::crowding() const {
-    double pairs = 0;
-    for (std::size_t cell = 1; cell < begins.size(); ++cell) {
-        const double grains = begins[cell] - begins[cell - 1];
-        pairs += grains * grains;
-    }
-    return pairs / static_cast<double>(end - begin);
 }
 
 }  // namespace pendular

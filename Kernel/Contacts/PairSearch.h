@@ -107,8 +107,6 @@ private:
             };
             return rowAt(along(1, p.y), along(2, p.z)) + along(0, p.x);
         }
-        /// How many grains a grain finds in its own cell, itself included: the mean.
-        [[nodiscard]] double crowding() const;
     };
 
     using Places = std::vector<std::uint32_t>;
