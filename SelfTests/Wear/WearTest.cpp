@@ -319,6 +319,22 @@ TEST(Wear, isTheSameWithAndWithoutTheLedger) {
     EXPECT_LT(ledger->wear().slidingWork, ledger->energyLedger().sliding);
 }
 
+/// The account of walls that wear is of contacts with them alone: for the energy of all springs there is the
+/// ledger.
+TEST(Wear, wallsThatWearKeepTheLedgerForTheEnergyOfTheSprings) {
+    const auto springs = heap(1), ledger = heap(1);
+    springs->keepSpringEnergy();
+    ledger->keepEnergyLedger();
+    for (const auto* scene : {&springs, &ledger}) {
+        (*scene)->initialise();
+        (*scene)->steps(5000);
+    }
+    expectSameWear(*springs, *ledger);
+    EXPECT_TRUE(springs->keepsEnergyLedger());
+    EXPECT_GT(springs->springEnergy(), 0);
+    EXPECT_EQ(springs->springEnergy(), ledger->energyLedger().springs());
+}
+
 /// A box that meets its grains: many touches begin in steps in which contacts are listed again.
 TEST(Wear, isTheSameWithAndWithoutTheLedgerInABoxThatMoves) {
     const auto alone = heap(2), ledger = heap(1);
