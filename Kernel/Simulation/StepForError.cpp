@@ -19,47 +19,20 @@
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Particles/GrainName.h"
 #include "Kernel/Particles/TurningResponse.h"
+#include "Kernel/Simulation/CollisionScene.h"
 #include "Kernel/Simulation/OverlapEstimate.h"
 #include "Kernel/Simulation/Scene.h"
 #include "Kernel/Species/Field.h"
-#include "Kernel/Walls/InfiniteWall.h"
 
 namespace pendular {
 namespace {
 
-/// A species of a scene, for grains and walls of another one with the same laws.
-struct SpeciesAt {
-    std::size_t index;
-    const SpeciesOwner* owner;
-
-    [[nodiscard]] int getIndex() const { return static_cast<int>(index); }
-    [[nodiscard]] const SpeciesOwner* getOwner() const { return owner; }
-};
-
-/// Two bodies that can meet; body 2 of infinite radius is a wall.
-struct Meeting {
-    std::size_t species1, species2;
-    Bodies bodies;
+/// Two bodies that can meet.
+struct Meeting : CollidingBodies {
     double halfPeriod;   // s
-    double touchTime;    // s, about, of a touch without dashpots: at least half a period
     double relaxation;   // s, of the speed by the dashpot along the normal
     double range;        // m, of the gap at which they begin to attract each other
     double quicker = 1;  // so many times as long is a touch as computed, because forces move the wall
-
-    [[nodiscard]] bool isAtWall() const { return !(bodies.radius2 < infinity); }
-};
-
-/// How they meet.
-struct StepApproach {
-    double normal, slip;  // m/s
-    double gap;           // m
-};
-
-/// The end of a collision.
-enum class End {
-    Parted,
-    DrawnBack,  // by what holds them, with less energy than parting takes
-    Creeps      // they neither part nor are drawn back in a bounded time: overdamped, or sinter
 };
 
 /// What is left of the relative motion, along and across the first normal; nothing of bodies that are drawn
@@ -67,9 +40,9 @@ enum class End {
 struct Aftermath {
     double parting = 0, slip = 0, rim1 = 0, rim2 = 0;  // m/s
     double contactTime = 0;                            // s, of the first touch
-    End end = End::DrawnBack;
+    CollisionEnd end = CollisionEnd::DrawnBack;
 
-    [[nodiscard]] bool parted() const { return end == End::Parted; }
+    [[nodiscard]] bool parted() const { return end == CollisionEnd::Parted; }
     [[nodiscard]] std::array<double, 4> motion() const { return {parting, slip, rim1, rim2}; }
     /// m/s, how far another one is from this; none of two pairs that stay together.
     [[nodiscard]] std::array<double, 4> errorOf(const Aftermath& other) const {
@@ -98,106 +71,22 @@ private:
     std::size_t most, count = 0;
 };
 
-/// The scene of a collision, along x.
-class Collision : public Scene {
-public:
-    Collision(ContactLaws& of, const Meeting& pair, const StepApproach& given, double step,
-              const Integrator& integrator)
-        : meeting(pair), approach(given) {
-        setLaws(of);
-        const double m1 = of.massOf(pair.species1, pair.bodies.radius1);
-        const double share =
-            pair.isAtWall() ? 1 : 1 - m1 / (m1 + of.massOf(pair.species2, pair.bodies.radius2));
-        addGrain({pair.species1, of.owner()}, pair.bodies.radius1, -1, share);
-        if (pair.isAtWall()) {
-            const SpeciesAt species{pair.species2, of.owner()};
-            wallHandler.copyAndAddObject(InfiniteWall({1, 0, 0}, {0, 0, 0}, &species));
-        } else {
-            addGrain({pair.species2, of.owner()}, pair.bodies.radius2, 1, 1 - share);
-        }
-        setTimeStep(step);
-        setIntegrator(integrator);
-        acceptUnstableTimeStep();
-        acceptOverlaps(0.5);
-        setQuiet();  // one of hundreds
-    }
-    ~Collision() override { completeLeftRun(); }
-
-    /// Until the bodies have parted, and no bridge or neck holds them, or are drawn back to each other: they
-    /// have less energy than parting takes then, as nothing gives them any. Overdamped bodies, and those that
-    /// sinter, do neither: see creeps().
-    Aftermath finish(Work& work) {
-        initialise();
-        Aftermath seen;
-        std::optional<double> begin;  // s, of the touch
-        for (bool leaves = false;;) {
-            step();
-            work.addStep();
-            const bool touches = overlap() > 0;
-            const Vec3D relative = velocityOf(1) - velocityOf(0);
-            const double parting = relative.dot(normal());
-            if (touches && !begin) begin = getTime();
-            const bool isStuck = creeps(begin, touches, parting);
-            if (begin) {
-                if (!touches && seen.contactTime == 0) seen.contactTime = getTime() - *begin;
-                if (leaves && parting < 0) return seen;
-                leaves = parting > 0;
-            }
-            const bool hasParted = begin && !touches && !(contactForceOn(0).squaredNorm() > 0);
-            if (hasParted || isStuck)
-                return {relative.x(), relative.y(),     rimOf(0),
-                        rimOf(1),     seen.contactTime, hasParted ? End::Parted : End::Creeps};
-        }
-    }
-
-private:
-    /// Whether the collision ends as creeping: the energy of the approach or parting has been below 1e-10 of
-    /// the initial one for four contact times, or the touch, or the bridge after it, lasts too long. Elastic
-    /// bodies are so slow only where they turn, for 1e-5 of a contact time, and 1e-5 of the speed is a tenth
-    /// of the smallest error that can be asked for. By Hertz's law a touch at a lower speed lasts longer, as
-    /// the fifth root: 40 times as long at 1e-8 of the speed that gives the largest sound overlap.
-    [[nodiscard]] bool creeps(const std::optional<double>& begin, bool touches, double parting) {
-        constexpr double still = 1e-5, stillTimes = 4, longestTouch = 100, longestBridge = 2000;
-        const double now = getTime(), unit = meeting.touchTime;
-        if (!begin) return now > 2 * approach.gap / approach.normal + longestTouch * unit;
-        if (!(std::abs(parting) < still * std::hypot(approach.normal, approach.slip))) lastMoved = now;
-        return now - lastMoved > stillTimes * unit ||
-               now - *begin > (touches ? longestTouch : longestBridge) * unit;
-    }
-    void addGrain(const SpeciesAt& species, double radius, double side, double share) {
-        SphericalParticle grain;
-        grain.setSpecies(&species);
-        grain.setRadius(radius);
-        const double gap = meeting.isAtWall() ? approach.gap : 0.5 * approach.gap;
-        grain.setPosition({side * (radius + gap), 0, 0});
-        grain.setVelocity({-side * share * approach.normal, -side * share * approach.slip, 0});
-        particleHandler.copyAndAddObject(grain);
-    }
-    /// m, from the first body to the second, or to the wall. It turns while grains slide past each other.
-    [[nodiscard]] Vec3D shift() {
-        const Vec3D place = particleHandler.getObject(0).getPosition();
-        if (meeting.isAtWall()) return {-place.x(), 0, 0};
-        return particleHandler.getObject(1).getPosition() - place;
-    }
-    [[nodiscard]] Vec3D normal() { return meeting.isAtWall() ? Vec3D(1, 0, 0) : shift().normalized(); }
-    [[nodiscard]] double overlap() {
-        const double reach = meeting.bodies.radius1 + (meeting.isAtWall() ? 0 : meeting.bodies.radius2);
-        return reach - shift().norm();
-    }
-    [[nodiscard]] Vec3D velocityOf(std::size_t body) {
-        if (body == 1 && meeting.isAtWall()) return Vec3D::Zero();
-        return particleHandler.getObject(body).getVelocity();
-    }
-    [[nodiscard]] double rimOf(std::size_t body) {
-        if (body == 1 && meeting.isAtWall()) return 0;
-        const auto grain = particleHandler.getObject(body);
-        return grain.getRadius() * grain.getAngularVelocity().z();
-    }
-
-    Meeting meeting;
-    StepApproach approach;
-    double lastMoved = 0;  // s, when they were not still
-};
+/// Computes a collision.
+Aftermath aftermathOf(CollisionScene&& collision, Work& work) {
+    const CollisionEnd end = collision.finish([&] { work.addStep(); });
+    if (end == CollisionEnd::DrawnBack) return {.contactTime = collision.contactTime()};
+    const Vec3D relative = collision.relativeVelocity();
+    const auto rimOf = [&](double radius, std::size_t body) {
+        return body == 1 && collision.pair().isAtWall() ? 0 : radius * collision.spinOf(body);
+    };
+    const Bodies& bodies = collision.pair().bodies;
+    return {relative.x(),
+            relative.y(),
+            rimOf(bodies.radius1, 0),
+            rimOf(bodies.radius2, 1),
+            collision.contactTime(),
+            end};
+}
 
 /// Largest and mean errors over some collisions, as shares of the speed; the mean is that of the angle at
 /// which it is largest.
@@ -237,7 +126,7 @@ public:
                                 speed, meeting.species1, meeting.species2, withoutFullStop(error.what())));
             }
             anyParts |= at.exact.parted();
-            anyCreeps |= at.exact.end == End::Creeps;
+            anyCreeps |= at.exact.end == CollisionEnd::Creeps;
             // Bodies that stay together have no time of a contact.
             contactTime =
                 std::min(contactTime, at.exact.contactTime > 0 ? at.exact.contactTime : meeting.halfPeriod);
@@ -257,7 +146,7 @@ public:
         std::vector<Aftermath> seen;
         const int lengths = anyCreeps ? 1 : mostLengths, beginnings = anyCreeps ? 4 : mostBeginnings;
         for (const Angle& at : angles) {
-            if (at.exact.end == End::Creeps) continue;
+            if (at.exact.end == CollisionEnd::Creeps) continue;
             seen.clear();
             for (int length = 0; length < lengths; ++length)
                 for (int k = 0; k < beginnings; ++k) {
@@ -317,8 +206,8 @@ private:
     /// @param before the touch, steps
     [[nodiscard]] Aftermath finish(const Angle& at, double step, double before,
                                    const Integrator& integrator) const {
-        const StepApproach approach{at.normal, at.slip, meeting.range + before * step * at.normal};
-        return Collision(scene.laws(), meeting, approach, step, integrator).finish(work);
+        const CollisionApproach approach{at.normal, at.slip, meeting.range + before * step * at.normal};
+        return aftermathOf(CollisionScene(scene.laws(), meeting, approach, step, integrator), work);
     }
 
     Scene& scene;
@@ -341,21 +230,11 @@ double quickerAtWall(const Scene& scene, int wallSpecies, double mass) {
     return 1 / std::sqrt(1 + mass * mobility);
 }
 
-/// s, of two bodies along the normal alone: friction may be stiffer.
-double touchTime(const PairLaws& pair, const Bodies& bodies, double effectiveMass) {
-    const double overlap = largestSoundOverlap * std::min(bodies.radius1, bodies.radius2),
-                 spring = pair.laws.normalStiffness(pair.a, pair.b, bodies, overlap);
-    return std::max(halfPeriod(pair, bodies, effectiveMass),
-                    std::numbers::pi * std::sqrt(effectiveMass / spring));
-}
-
 Meeting meetingOf(const PairLaws& pair, const Bodies& bodies, double effectiveMass) {
     const bool attractsBefore = !pair.laws.ofPair(pair.a, pair.b).formsAtContact;
-    return {static_cast<std::size_t>(pair.a),
-            static_cast<std::size_t>(pair.b),
-            bodies,
+    return {{static_cast<std::size_t>(pair.a), static_cast<std::size_t>(pair.b), bodies,
+             touchTime(pair, bodies, effectiveMass)},
             halfPeriod(pair, bodies, effectiveMass),
-            touchTime(pair, bodies, effectiveMass),
             effectiveMass / contactStiffness(pair, bodies, effectiveMass).normal.dashpot,
             attractsBefore ? pair.range(bodies) : 0};
 }

@@ -36,6 +36,7 @@ void bindBonds(SceneClass& scene);
 void bindHeat(SceneClass& scene);
 void bindFluid(py::module_& module, SceneClass& scene);
 void bindSoftness(py::module_& module, SceneClass& scene);
+void bindCollisions(py::module_& module);
 void bindResults(py::module_& module);
 
 }  // namespace pendular::python

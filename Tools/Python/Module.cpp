@@ -207,6 +207,7 @@ PYBIND11_MODULE(_kernel, module) {
     bindHeat(scene);
     bindFluid(module, scene);
     bindSoftness(module, scene);
+    bindCollisions(module);
     bindResults(module);
 
     module.def("load_species", &loadSpecies, py::arg("library"), comment("loadSpeciesLibrary"));

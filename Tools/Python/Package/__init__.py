@@ -63,16 +63,17 @@ from ._kernel import __version__ as _version
 from ._log import SceneWarning
 from ._log import show_log as _show_log
 from ._view import view
+from .many import collisions, run_many
 from .results import draw, frames, restart, table, to_pyvista, walls_to_pyvista
 from .scene import Scene
 
 __all__ = [
     "Fluid", "InputError", "Mixture", "Region", "RunError", "RunStopped", "Scene", "SceneWarning", "Shape", "Sizes", "Species",
-    "Wall", "balanced_speed", "bidisperse_sizes", "block", "box", "clump", "cylinder", "drag_force", "drag_laws",
+    "Wall", "balanced_speed", "bidisperse_sizes", "block", "box", "clump", "collisions", "cylinder", "drag_force", "drag_laws",
     "draw", "even_sizes", "fields", "frames", "load_species", "lognormal_sizes", "membrane_sheet", "membrane_tube",
-    "mesh_inside", "normal_sizes", "one_size", "rank", "rank_count", "read_sizes", "restart", "rosin_rammler_sizes",
-    "shaped_species", "sizes", "softest_modulus", "species", "sphere", "superquadric", "table", "terminal_speed",
-    "to_pyvista", "view", "walls_to_pyvista",
+    "mesh_inside", "normal_sizes", "one_size", "rank", "rank_count", "read_sizes", "restart", "rosin_rammler_sizes", "run_many",
+    "shaped_species", "sizes", "softest_modulus", "species", "sphere", "superquadric", "table", "terminal_speed", "to_pyvista",
+    "view", "walls_to_pyvista",
 ]  # fmt: skip
 __version__ = _version
 

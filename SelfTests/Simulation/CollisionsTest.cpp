@@ -1,0 +1,222 @@
+#include "Kernel/Simulation/Collisions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "Kernel/Contacts/PopularSpecies.h"
+#include "Kernel/Species/ElasticConstants.h"
+#include "SelfTests/Papers/IndependentWetCollision.h"
+#include "SelfTests/Species/Normal/IndependentCollisions.h"
+#include "SelfTests/Support/Refusal.h"
+
+namespace pendular::collisionsTest {
+namespace {
+
+using support::contains;
+using support::isOneSentence;
+using support::refusal;
+
+constexpr double radius = 1e-3, density = 2500, stiffness = 1e4;  // m, kg/m^3, N/m
+const double massOfGrain = 4.0 / 3 * std::numbers::pi * radius * radius * radius * density;
+
+LinearViscoelasticSlidingFrictionSpecies linear(double restitution) {
+    LinearViscoelasticSlidingFrictionSpecies species;
+    species.setDensity(density);
+    species.setStiffnessAndRestitutionCoefficient(stiffness, restitution, massOfGrain);
+    species.setSlidingStiffness(2.0 / 7 * stiffness);
+    species.setSlidingFrictionCoefficient(0.3);
+    return species;
+}
+
+/// The half period of the damped spring, and the peak of its overlap, v sqrt(m / k) exp(-(L / w) arctan(w /
+/// L)).
+TEST(Collisions, linearSpringAndDashpotAreThoseOfTheClosedForm) {
+    const double mass = 0.5 * massOfGrain, speed = 0.2;
+    for (const double e : {0.1, 0.5, 0.9, 1.0}) {
+        const double time =
+            std::sqrt(mass / stiffness * (std::pow(std::numbers::pi, 2) + std::pow(std::log(e), 2)));
+        const double w = std::numbers::pi / time, rate = -std::log(e) / time;
+        const double peak = speed * std::sqrt(mass / stiffness) * std::exp(-rate / w * std::atan2(w, rate));
+        const CollisionOutcome seen =
+            collide(linear(e), {.radius1 = radius, .radius2 = radius, .normalVelocity = speed});
+        const double steps = time / seen.timeStep;
+        // As in DryCollisionTest: the frequency of the steps, and the dashpot in the steps in which the touch
+        // begins and ends.
+        const double turn = std::numbers::pi / steps, damped = std::log(e) / steps;
+        const double tolerance =
+            (turn * turn / 24 + 2 * damped * damped) * (1 + turn) + std::pow(turn, 3) / 6;
+        EXPECT_GE(steps, 199);
+        EXPECT_NEAR(seen.restitution / e, 1, tolerance - std::log(e) * turn * turn / 24);
+        EXPECT_NEAR(seen.contactTime / time, 1, tolerance - std::log(e) / (steps * steps));
+        EXPECT_NEAR(seen.largestOverlap / peak, 1, tolerance);
+        EXPECT_NEAR(seen.partingVelocity, speed * seen.restitution, 1e-15);
+        EXPECT_NEAR(seen.energyLost / seen.energyBefore, 1 - seen.restitution * seen.restitution, 1e-14);
+        EXPECT_TRUE(seen.parted());
+        EXPECT_EQ(seen.ruptureDistance, 0);
+        EXPECT_TRUE(std::isnan(seen.tangentialRestitution));
+    }
+}
+
+/// Independent solutions of Hertz's law with its dashpot.
+TEST(Collisions, hertzianCollisionsAreThoseOfIndependentSolutions) {
+    const auto compare = [](const independent::Collision& expected) {
+        HertzianViscoelasticSpecies species;
+        species.setDensity(expected.density);
+        species.setElasticModulusAndPoissonRatio(expected.youngModulus, expected.poissonRatio);
+        species.setRestitutionCoefficient(expected.restitution);
+        const CollisionOutcome seen = collide(species, {.radius1 = expected.radius1,
+                                                        .radius2 = expected.radius2,
+                                                        .normalVelocity = expected.speed,
+                                                        .timeStep = expected.contactTime / 200});
+        // DryCollisionTest has the reasons of both.
+        const double turn = 4.03 / 200, damped = std::log(expected.restitution) / 200,
+                     tolerance = turn * turn / 24 + 2 * damped * damped;
+        EXPECT_NEAR(seen.contactTime / expected.contactTime, 1, tolerance);
+        EXPECT_NEAR(seen.largestOverlap / expected.largestOverlap, 1, tolerance);
+        EXPECT_NEAR(seen.partingVelocity / expected.rebound, 1, 0.002 * std::pow(0.25, 1.25));
+    };
+    for (const auto& expected : independent::dampedCollisions) compare(expected);
+    for (const auto& expected : independent::elasticCollisions) compare(expected);
+}
+
+/// A sphere that slides along a wall as long as it touches it: the impulse of friction is that of the normal
+/// force by the coefficient. Without a dashpot all samples of both have one ratio.
+TEST(Collisions, aSlidingSphereLosesWhatCoulombsLawTakes) {
+    const double mu = 0.3, normal = 0.2, spin = 30;
+    for (const double tangential : {1.0, -2.0}) {
+        const CollisionOutcome seen = collide(linear(1), {.radius1 = radius,
+                                                          .radius2 = infinity,
+                                                          .normalVelocity = normal,
+                                                          .tangentialVelocity = tangential,
+                                                          .spin1 = spin});
+        const double change = -std::copysign(mu * (1 + seen.restitution) * normal, tangential);
+        EXPECT_NEAR(seen.tangentialVelocity, tangential + change, 1e-12);
+        EXPECT_NEAR(seen.spin1, spin + 2.5 * change / radius, 1e-9);
+        EXPECT_EQ(seen.spin2, 0);
+        const double before = tangential + radius * spin, after = before + 3.5 * change;
+        EXPECT_NEAR(seen.tangentialRestitution, -after / before, 1e-12);
+        EXPECT_NEAR(seen.largestTangentialForce, mu * seen.largestNormalForce, 1e-12);
+        EXPECT_NEAR(seen.largestNormalForce / (stiffness * seen.largestOverlap), 1, 1e-3);  // 100 steps to it
+        const double energy =
+            0.5 * massOfGrain *
+            (normal * normal + tangential * tangential + 0.4 * radius * radius * spin * spin);
+        EXPECT_NEAR(seen.energyBefore, energy, 1e-14 * energy);
+    }
+}
+
+/// Momentum and angular momentum of two grains stay, and what the ledger finds is what the motion loses.
+TEST(Collisions, whatTheMotionLosesIsInTheLedger) {
+    for (const double radius2 : {0.5e-3, 2e-3, infinity}) {
+        const CollisionOutcome seen = collide(linear(0.6), {.radius1 = radius,
+                                                            .radius2 = radius2,
+                                                            .normalVelocity = 0.2,
+                                                            .tangentialVelocity = 0.1,
+                                                            .spin2 = radius2 < infinity ? 50.0 : 0.0,
+                                                            .keepsEnergies = true});
+        ASSERT_TRUE(seen.energies);
+        const EnergyLedger& ledger = *seen.energies;
+        EXPECT_NEAR(ledger.lost() + ledger.stored() + ledger.stepError, seen.energyLost,
+                    1e-12 * seen.energyBefore);
+        EXPECT_GT(ledger.normalDashpots, 0.3 * seen.energyLost);
+        EXPECT_FALSE(
+            collide(linear(1), {.radius1 = radius, .radius2 = radius2, .normalVelocity = 0.2}).energies);
+    }
+}
+
+HertzianViscoelasticLiquidBridgeBagheriSpecies wet() {
+    namespace paper = independent::wetCollisionScene;
+    HertzianViscoelasticLiquidBridgeBagheriSpecies species;
+    species.setDensity(paper::density);
+    species.setElasticModulusAndPoissonRatio(paper::youngModulus, paper::poissonRatio);
+    species.setRestitutionCoefficient(paper::restitution);
+    species.setLiquidBridgeVolume(paper::volume);
+    species.setContactAngle(paper::contactAngle);
+    species.setSurfaceTension(paper::surfaceTension);
+    return species;
+}
+
+/// Above the slowest speed of a rupture the bridge takes its work; below it, it draws the grains back.
+TEST(Collisions, aBridgeTakesTheWorkOfItsRupture) {
+    namespace paper = independent::wetCollisionScene;
+    for (const independent::WetCollision& expected : independent::wetCollisions) {
+        const CollisionOutcome seen = collide(wet(), {.radius1 = paper::radius1,
+                                                      .radius2 = paper::radius2,
+                                                      .normalVelocity = expected.speed,
+                                                      .timeStep = expected.contactTime / 400});
+        const double way = expected.speed * seen.timeStep;  // m, in a step at most
+        EXPECT_NEAR(seen.contactTime / expected.contactTime, 1,
+                    1e-3);  // the dashpot: (50/400)^(5/4) 0.002, and the start
+        EXPECT_NEAR(seen.largestOverlap / expected.largestOverlap, 1, 1e-3);
+        EXPECT_GT(seen.largestAttraction, 0.999 * paper::contactForce);
+        const bool ruptures = expected.secondContactTime == independent::neverAgain;
+        EXPECT_EQ(seen.parted(), ruptures);
+        EXPECT_EQ(seen.end, ruptures ? CollisionEnd::Parted : CollisionEnd::DrawnBack);
+        if (!ruptures) {
+            EXPECT_EQ(seen.restitution, 0);
+            continue;
+        }
+        EXPECT_LE(seen.ruptureDistance, paper::ruptureDistance * (1 + 1e-9));
+        EXPECT_GT(seen.ruptureDistance, paper::ruptureDistance - way);
+        // The restitution of the contact errs by 0.002 (50/400)^(5/4) = 1.5e-4 of the energy's root, the work
+        // by the force at the rupture over the way of a step.
+        const double lost = expected.dissipated + expected.bridgeWork;
+        EXPECT_NEAR(seen.energyLost, lost, 3e-4 * seen.energyBefore + 0.5 * paper::contactForce * way);
+        EXPECT_NEAR(seen.duration, expected.farthestTime, 4e-3 * expected.farthestTime);
+    }
+}
+
+std::vector<CollisionOutcome> series(int threads, std::size_t count = 40) {
+    return collideMany(count, threads, [](std::size_t k) {
+        const double share = static_cast<double>(k);
+        return collide(linear(0.2 + 0.02 * share), {.radius1 = radius,
+                                                    .radius2 = k % 5 == 0 ? infinity : radius,
+                                                    .normalVelocity = 0.01 + 0.01 * share,
+                                                    .tangentialVelocity = 0.02 * share});
+    });
+}
+
+TEST(Collisions, doNotDependOnThreads) {
+    const auto one = series(1);
+    for (const int threads : {2, 7}) {
+        const auto many = series(threads);
+        ASSERT_EQ(many.size(), one.size());
+        for (std::size_t k = 0; k < one.size(); ++k) {
+            EXPECT_EQ(many[k].partingVelocity, one[k].partingVelocity);
+            EXPECT_EQ(many[k].spin1, one[k].spin1);
+            EXPECT_EQ(many[k].contactTime, one[k].contactTime);
+            EXPECT_EQ(many[k].steps, one[k].steps);
+        }
+    }
+    EXPECT_TRUE(series(2, 0).empty());
+}
+
+/// One sentence with the lowest number of those that fail, whatever the number of threads.
+TEST(Collisions, refuseWrongNumbersByTheirPlace) {
+    for (const int threads : {1, 3}) {
+        const auto refused = [&](auto&& change, std::size_t from) {
+            return refusal([&] {
+                (void)collideMany(30, threads, [&](std::size_t k) {
+                    Collision given{.radius1 = radius, .radius2 = radius, .normalVelocity = 0.1};
+                    if (k >= from) change(given);
+                    return collide(linear(0.5), given);
+                });
+            });
+        };
+        const std::string sentence = refused([](Collision& c) { c.normalVelocity = -1; }, 17);
+        EXPECT_TRUE(isOneSentence(sentence));
+        EXPECT_TRUE(contains(sentence, "collision 17: normalVelocity = -1 m/s")) << sentence;
+        for (const std::string& other : {refused([](Collision& c) { c.radius1 = 0; }, 3),
+                                         refused([](Collision& c) { c.radius2 = -infinity; }, 3),
+                                         refused([](Collision& c) { c.spin2 = std::nan(""); }, 3),
+                                         refused([](Collision& c) { c.stepsInContact = 1; }, 3),
+                                         refused([](Collision& c) { c.timeStep = 0; }, 3)}) {
+            EXPECT_TRUE(isOneSentence(other));
+            EXPECT_TRUE(contains(other, "collision 3: ")) << other;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace pendular::collisionsTest
