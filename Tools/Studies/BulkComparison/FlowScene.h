@@ -5,37 +5,46 @@
 #include <filesystem>
 
 #include "Kernel/Files/FileFault.h"
+#include "Tools/Studies/BulkComparison/MixerScene.h"
 #include "Tools/Studies/BulkComparison/PeerFiles.h"
 #include "Tools/Studies/BulkComparison/PeerScene.h"
 
-// The drum and the hopper of the comparison with any number of grains, which flow already: what
-// benchmark-scenes times.
+// Drum, hopper and mixer with any number of grains, dry or wet, which flow already: what benchmark-scenes
+// times, and what other codes are timed beside.
 
 namespace pendular::bulk {
 
-inline constexpr std::array<std::string_view, 2> flowSceneNames{"flowing-drum", "flowing-hopper"};
+inline constexpr std::array<std::string_view, 6> flowSceneNames{"flowing-drum",       "flowing-hopper",
+                                                                "flowing-mixer",      "wet-flowing-drum",
+                                                                "wet-flowing-hopper", "wet-flowing-mixer"};
 inline bool isFlowScene(std::string_view name) {
     return std::find(flowSceneNames.begin(), flowSceneNames.end(), name) != flowSceneNames.end();
 }
+inline bool isWetScene(std::string_view name) { return name.starts_with("wet-"); }
 
 /// s: what users of the peers take.
 inline double flowStep() { return 0.2 * PeerMaterial::rayleighTime(); }
 
+/// Of more grains than this, scenes are copies of one of `grainsOfCopies`, side by side along the periodic
+/// axis: to fill them would take hours.
+inline constexpr std::size_t mostGrainsWithoutCopies = 100'000, grainsOfCopies = 30'000;
+
 /// The grains that the scene has in the comparison, without those that are held.
-inline std::size_t ownFlowGrains(std::string_view name) { return name == "flowing-drum" ? 1040 : 1500; }
+inline std::size_t ownFlowGrains(std::string_view name) { return name.ends_with("hopper") ? 1500 : 1040; }
 
 /// The scene before its grains move.
-/// @param grains about so many; the drum has as many as find room below its middle
+/// @param grains about so many; drum and mixer have as many as find room below their middle
 inline BulkScene flowSceneOf(std::string_view name, std::size_t grains) {
     const double times = static_cast<double>(grains) / static_cast<double>(ownFlowGrains(name));
     UniformRandom random(1);
-    return name == "flowing-drum" ? detail::drum(random, times) : detail::hopper(random, times);
+    if (name.ends_with("hopper")) return detail::hopper(random, times);
+    return name.ends_with("mixer") ? detail::mixer(random, times) : detail::drum(random, times);
 }
 
 /// Runs a scene for a time (s), and gives its grains as they are then.
-inline std::vector<PeerGrain> grainsAfter(const BulkScene& scene, double seconds, bool isClosed,
-                                          int threads) {
-    PeerScene running(scene, isClosed);
+template <class SceneType>
+std::vector<PeerGrain> grainsAfter(const BulkScene& scene, double seconds, bool isClosed, int threads) {
+    SceneType running(scene, isClosed);
     running.setQuiet();
     running.setTimeStep(flowStep());
     running.acceptUnstableTimeStep();
@@ -45,17 +54,22 @@ inline std::vector<PeerGrain> grainsAfter(const BulkScene& scene, double seconds
     return running.grainsNow(scene);
 }
 
-/// Half a second of the drum from its fall; the hopper 0.06 s after it has been opened, when its grains had
-/// come to rest.
+/// Half a second of the drum or the mixer from the fall of their grains, then, where they are wet, 0.2 s with
+/// bridges; the hopper 0.06 s after it has been opened, when its (dry) grains had come to rest.
 inline BulkScene flowStart(std::string_view name, std::size_t grains, int threads) {
     BulkScene scene = flowSceneOf(name, grains);
+    const auto run = [&](bool isWet, double seconds, bool isClosed = false) {
+        scene.grains = isWet ? grainsAfter<WetPeerScene>(scene, seconds, isClosed, threads)
+                             : grainsAfter<PeerScene>(scene, seconds, isClosed, threads);
+    };
     if (!scene.settles) {
-        scene.grains = grainsAfter(scene, 0.5, false, threads);
+        run(false, 0.5);
+        if (isWetScene(name)) run(true, 0.2);
         return scene;
     }
-    scene.grains = grainsAfter(scene, 0.5 * std::sqrt(scene.highest.z() / 0.15), true, threads);
+    run(false, 0.5 * std::sqrt(scene.highest.z() / 0.15), true);
     for (PeerGrain& grain : scene.grains) grain.velocity = Vec3D::Zero();
-    scene.grains = grainsAfter(scene, 0.06, false, threads);
+    run(isWetScene(name), 0.06);
     return scene;
 }
 
@@ -72,6 +86,36 @@ inline BulkScene keptFlowStart(std::string_view name, std::size_t grains, const 
     BulkScene scene = flowSceneOf(name, grains);
     readPeerData(file.string(), scene);
     return scene;
+}
+
+/// Copies of a scene side by side along its periodic axis.
+inline BulkScene copiesOf(const BulkScene& one, std::size_t copies) {
+    const int axis = one.periodic[2] ? 2 : 1;
+    const double period = one.highest[axis] - one.lowest[axis];
+    BulkScene all = one;
+    all.highest[axis] = one.lowest[axis] + period * static_cast<double>(copies);
+    for (std::size_t k = 1; k < copies; ++k) {
+        Vec3D shift = Vec3D::Zero();
+        shift[axis] = period * static_cast<double>(k);
+        for (PeerGrain grain : one.grains) {
+            grain.position += shift;
+            all.grains.push_back(grain);
+        }
+        for (std::size_t m = 0; m < one.meshes.size(); ++m)
+            for (Triangle triangle : one.meshes[m].triangles) {
+                for (Vector<double>& corner : triangle) corner += toVector(shift);
+                all.meshes[m].triangles.push_back(triangle);
+            }
+    }
+    return all;
+}
+
+/// A flow of any number of grains.
+inline BulkScene flowOf(std::string_view name, std::size_t grains, const std::filesystem::path& folder,
+                        int threads) {
+    if (grains <= mostGrainsWithoutCopies) return keptFlowStart(name, grains, folder, threads);
+    const std::size_t copies = (grains + grainsOfCopies / 2) / grainsOfCopies;
+    return copiesOf(keptFlowStart(name, grainsOfCopies, folder, threads), copies);
 }
 
 }  // namespace pendular::bulk
