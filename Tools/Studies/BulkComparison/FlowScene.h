@@ -41,35 +41,50 @@ inline BulkScene flowSceneOf(std::string_view name, std::size_t grains) {
     return name.ends_with("mixer") ? detail::mixer(random, times) : detail::drum(random, times);
 }
 
-/// Runs a scene for a time (s), and gives its grains as they are then.
+inline std::size_t flowSteps(double seconds) { return static_cast<std::size_t>(seconds / flowStep()); }
+
+/// The meshes as they have turned after a time (s), in whole steps.
+inline void turnMeshes(BulkScene& scene, double seconds) {
+    for (PeerMesh& mesh : scene.meshes) {
+        const double angle = mesh.spin * flowStep() * static_cast<double>(flowSteps(seconds));
+        const double c = std::cos(angle), s = std::sin(angle);
+        for (Triangle& triangle : mesh.triangles)
+            for (Vector<double>& at : triangle) at = {c * at.x - s * at.y, s * at.x + c * at.y, at.z};
+    }
+}
+
+/// Runs a scene for a time (s): its grains and meshes are as they are then.
 template <class SceneType>
-std::vector<PeerGrain> grainsAfter(const BulkScene& scene, double seconds, bool isClosed, int threads) {
+void runFor(BulkScene& scene, double seconds, bool isClosed, int threads) {
     SceneType running(scene, isClosed);
     running.setQuiet();
     running.setTimeStep(flowStep());
     running.acceptUnstableTimeStep();
     running.setNumberOfThreads(threads);
     running.initialise();
-    running.step(static_cast<std::size_t>(seconds / running.getTimeStep()));
-    return running.grainsNow(scene);
+    running.step(flowSteps(seconds));
+    scene.grains = running.grainsNow(scene);
+    turnMeshes(scene, seconds);
 }
+
+inline constexpr double fallSeconds = 0.5, wetSeconds = 0.2, drainSeconds = 0.06;
 
 /// Half a second of the drum or the mixer from the fall of their grains, then, where they are wet, 0.2 s with
 /// bridges; the hopper 0.06 s after it has been opened, when its (dry) grains had come to rest.
 inline BulkScene flowStart(std::string_view name, std::size_t grains, int threads) {
     BulkScene scene = flowSceneOf(name, grains);
     const auto run = [&](bool isWet, double seconds, bool isClosed = false) {
-        scene.grains = isWet ? grainsAfter<WetPeerScene>(scene, seconds, isClosed, threads)
-                             : grainsAfter<PeerScene>(scene, seconds, isClosed, threads);
+        if (isWet) runFor<WetPeerScene>(scene, seconds, isClosed, threads);
+        else runFor<PeerScene>(scene, seconds, isClosed, threads);
     };
     if (!scene.settles) {
-        run(false, 0.5);
-        if (isWetScene(name)) run(true, 0.2);
+        run(false, fallSeconds);
+        if (isWetScene(name)) run(true, wetSeconds);
         return scene;
     }
-    run(false, 0.5 * std::sqrt(scene.highest.z() / 0.15), true);
+    run(false, fallSeconds * std::sqrt(scene.highest.z() / 0.15), true);
     for (PeerGrain& grain : scene.grains) grain.velocity = Vec3D::Zero();
-    run(isWetScene(name), 0.06);
+    run(isWetScene(name), drainSeconds);
     return scene;
 }
 
@@ -85,6 +100,8 @@ inline BulkScene keptFlowStart(std::string_view name, std::size_t grains, const 
     }
     BulkScene scene = flowSceneOf(name, grains);
     readPeerData(file.string(), scene);
+    turnMeshes(scene, fallSeconds);
+    if (isWetScene(name)) turnMeshes(scene, wetSeconds);
     return scene;
 }
 
@@ -95,15 +112,17 @@ inline BulkScene copiesOf(const BulkScene& one, std::size_t copies) {
     BulkScene all = one;
     all.highest[axis] = one.lowest[axis] + period * static_cast<double>(copies);
     for (std::size_t k = 1; k < copies; ++k) {
+        const auto number = static_cast<double>(k);
         Vec3D shift = Vec3D::Zero();
-        shift[axis] = period * static_cast<double>(k);
+        shift[axis] = period * number;
         for (PeerGrain grain : one.grains) {
             grain.position += shift;
             all.grains.push_back(grain);
         }
         for (std::size_t m = 0; m < one.meshes.size(); ++m)
             for (Triangle triangle : one.meshes[m].triangles) {
-                for (Vector<double>& corner : triangle) corner += toVector(shift);
+                // A corner of the last row has the same coordinates as the next copy's first one.
+                for (Vector<double>& corner : triangle) corner.z = period * (number + corner.z / period);
                 all.meshes[m].triangles.push_back(triangle);
             }
     }

@@ -72,7 +72,7 @@ struct Screw {
 
 namespace detail {
 
-/// As long as the drum, and as wide; the shaft has a quarter of its radius, and the blade ends 2.2 diameters
+/// As long as the drum, as wide, and turns twice as fast; the shaft has a quarter of its radius, and the blade ends 2.2 diameters
 /// before the tube, so that no grain is caught between them.
 inline BulkScene mixer(UniformRandom& random, double times = 1) {
     BulkScene scene = drum(random, times);
@@ -84,11 +84,11 @@ inline BulkScene mixer(UniformRandom& random, double times = 1) {
                       .pitch = length / std::max(1.0, std::round(length / (0.9 * radius)))};
     scene.name = "mixer";
     scene.cylinder = 0, scene.wallFriction = PeerMaterial::friction;
-    scene.meshes = {{"tube", screw.tubeOf(radius), 0}, {"rotor", screw.rotor(), scene.spin}};
+    scene.meshes = {{"tube", screw.tubeOf(radius), 0}, {"rotor", screw.rotor(), 2 * scene.spin}};
     scene.spin = 0;
     scene.grains.clear();
     fill(scene, {-radius, -radius, 0}, {radius, radius, length}, numberOf(2000, times), random,
-         [&](const Vec3D& c) { return c.y() < 0.35 * radius && screw.leavesRoom(c); });
+         [&](const Vec3D& c) { return screw.leavesRoom(c); });
     return scene;
 }
 

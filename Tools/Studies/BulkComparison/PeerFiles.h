@@ -68,7 +68,8 @@ inline void writePeerFolder(const std::filesystem::path& folder, const BulkScene
     number("meshed", scene.meshes.empty() ? 0 : 1);
     number("drum", scene.cylinder > 0 ? 1 : 0);
     number("hopper", scene.drains ? 1 : 0);
-    number("wide", std::max(scene.cylinder, scene.highest.x()));  // m: radius of the drum, half of the hopper
+    // m: the radius of the drum, half of the hopper
+    number("wide", scene.cylinder > 0 ? scene.cylinder : scene.highest.x());
     number("spin", scene.spin);
     number("period", turns > 0 ? 1 / turns : 0);  // s, of the mesh that turns
     number("wall_friction", scene.wallFriction);
