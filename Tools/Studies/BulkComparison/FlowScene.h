@@ -67,41 +67,45 @@ void runFor(BulkScene& scene, double seconds, bool isClosed, int threads) {
     turnMeshes(scene, seconds);
 }
 
-inline constexpr double fallSeconds = 0.5, wetSeconds = 0.2, drainSeconds = 0.06;
+inline constexpr double fallSeconds = 0.5, drainSeconds = 0.06;
+/// s, of a wet flow from the start of the dry one: bridges form and rupture, until their flow is its own.
+inline double wetSeconds(const BulkScene& scene) { return scene.drains ? 0.03 : 0.2; }
 
-/// Half a second of the drum or the mixer from the fall of their grains, then, where they are wet, 0.2 s with
-/// bridges; the hopper 0.06 s after it has been opened, when its (dry) grains had come to rest.
+/// Half a second of the drum or the mixer from the fall of their grains; the hopper 0.06 s after it has been
+/// opened, when its grains had come to rest.
 inline BulkScene flowStart(std::string_view name, std::size_t grains, int threads) {
     BulkScene scene = flowSceneOf(name, grains);
-    const auto run = [&](bool isWet, double seconds, bool isClosed = false) {
-        if (isWet) runFor<WetPeerScene>(scene, seconds, isClosed, threads);
-        else runFor<PeerScene>(scene, seconds, isClosed, threads);
-    };
     if (!scene.settles) {
-        run(false, fallSeconds);
-        if (isWetScene(name)) run(true, wetSeconds);
+        runFor<PeerScene>(scene, fallSeconds, false, threads);
         return scene;
     }
-    run(false, fallSeconds * std::sqrt(scene.highest.z() / 0.15), true);
+    runFor<PeerScene>(scene, fallSeconds * std::sqrt(scene.highest.z() / 0.15), true, threads);
     for (PeerGrain& grain : scene.grains) grain.velocity = Vec3D::Zero();
-    run(isWetScene(name), drainSeconds);
+    runFor<PeerScene>(scene, drainSeconds, false, threads);
     return scene;
 }
 
-/// The same, kept in a folder of initial states as a file that LIGGGHTS and LAMMPS read (PeerFiles.h).
-/// Without a folder nothing is read or kept.
+/// A flow at its start, which is kept in a folder of initial states as a file that LIGGGHTS and LAMMPS read
+/// (PeerFiles.h). Without a folder nothing is read or kept.
 inline BulkScene keptFlowStart(std::string_view name, std::size_t grains, const std::filesystem::path& folder,
                                int threads) {
-    if (folder.empty()) return flowStart(name, grains, threads);
+    constexpr std::string_view wet = "wet-";
+    const auto made = [&] {
+        if (!isWetScene(name)) return flowStart(name, grains, threads);
+        BulkScene scene = keptFlowStart(name.substr(wet.size()), grains, folder, threads);
+        runFor<WetPeerScene>(scene, wetSeconds(scene), false, threads);
+        return scene;
+    };
+    if (folder.empty()) return made();
     const std::filesystem::path file = folder / fmt::format("{}-{}.data", name, grains);
     if (!isThere(file)) {
         makeFolder(folder);
-        writePeerData(file.string(), flowStart(name, grains, threads));
+        writePeerData(file.string(), made());
     }
     BulkScene scene = flowSceneOf(name, grains);
     readPeerData(file.string(), scene);
-    turnMeshes(scene, fallSeconds);
-    if (isWetScene(name)) turnMeshes(scene, wetSeconds);
+    if (!scene.settles) turnMeshes(scene, fallSeconds);
+    if (isWetScene(name)) turnMeshes(scene, wetSeconds(scene));
     return scene;
 }
 

@@ -72,8 +72,8 @@ struct Screw {
 
 namespace detail {
 
-/// As long as the drum, as wide, and turns twice as fast; the shaft has a quarter of its radius, and the blade ends 2.2 diameters
-/// before the tube, so that no grain is caught between them.
+/// As long as the drum, as wide, and turns twice as fast; the shaft has a quarter of its radius, and the
+/// blade ends 2.2 diameters before the tube, so that no grain is caught between them.
 inline BulkScene mixer(UniformRandom& random, double times = 1) {
     BulkScene scene = drum(random, times);
     const double radius = scene.cylinder, length = scene.highest.z();

@@ -6,8 +6,8 @@
 #                          [--output FOLDER] [--states FOLDER] [--skins "2e-4 4e-4 8e-4"] [--prefix "chrt -f 10 taskset -c 1"] [--bed FILE] [--drum FILE --drum-walls FILE]
 # --scenes     in flow, of the numbers of --sizes, 5 MPa and steps of 0.2 of Rayleigh's time: flowing-drum, flowing-hopper and
 #              flowing-mixer (a screw of triangles); with wet- in front: with bridges that form and rupture (Soulie's force, as
-#              LIGGGHTS' easo/capillary/viscous has it). Their starts are made once and kept in --states; 300 000 are ten copies of 30 000
-#              along the period. LIGGGHTS has the best of --skins, LAMMPS only the dry drum and hopper.
+#              LIGGGHTS' easo/capillary/viscous has it). Their starts are made once and kept in --states; 1000 are the scene's own
+#              number (960 to 1500), 300 000 ten copies of 30 000 along the period. LIGGGHTS has the best of --skins, LAMMPS only the dry drum and hopper.
 #              At rest: bed: dry, of the numbers of --particles; wet-bed: the first of these, with liquid bridges (Bagheri's law and the
 #              exact one), beside LIGGGHTS' easo/capillary/viscous; mixture: 20 000 grains, radii 1 to 10, two sizes of equal
 #              volume, beside LIGGGHTS with cells of one size: with cells by size ("multi") version 3.8.0 finds no neighbours;
@@ -135,7 +135,8 @@ run_flow() {  # scene, grains
     before=$(wc -l <"$raw")
     steps=$(awk -v n="$2" 'BEGIN { s = int(4e6 / n); print (s > 4000 ? 4000 : s < 200 ? 200 : s) }')
     warm=$((steps / 2 > 1000 ? 1000 : steps / 2 < 100 ? 100 : steps / 2))
-    local options=(--scene "$scene" --particles "$2" --states "$states")
+    local options=(--scene "$scene" --states "$states")
+    (($2 == 1000)) || options+=(--particles "$2")
     rm -rf "$folder"
     say "$scene of $2: the start"
     "$ours" "${options[@]}" --threads "$(nproc)" --peer-files "$folder"
