@@ -31,10 +31,11 @@ struct Options {
     std::size_t steps = 2000, warm = 500;
     std::size_t exchange = 0;  // grains that come and go in a step
     bool header = false;
-    bool grains = false;   // print these instead
-    bool ranks = false;    // print what they did
-    double wander = 0;     // share of the grains that go to another rank at each list
-    std::string paraView;  // beginning of the names of frames; empty: none
+    bool grains = false;    // print these instead
+    bool ranks = false;     // print what they did
+    double wander = 0;      // share of the grains that go to another rank at each list
+    std::string paraView;   // beginning of the names of frames; empty: none
+    std::string peerFiles;  // folder for a flow's files for other codes, instead of a run; empty: none
 };
 
 /// Bytes of memory that this process has taken at most so far.
@@ -239,29 +240,43 @@ void printGrains(const Options& options) {
                    grain.position.z());
 }
 
-/// A drum or a hopper in flow, at the step that users of other codes take.
-void measureFlow(const Options& options, double memoryBefore) {
-    const scenes::BenchmarkChoice& choice = options.choice;
-    const std::size_t grains = choice.particlesOr(bulk::ownFlowGrains(choice.scene));
-    bulk::PeerScene scene(bulk::keptFlowStart(choice.scene, grains, choice.states, options.threads));
+/// Times a flow at the step that users of other codes take.
+template <class SceneType>
+void measureFlow(SceneType scene, const Options& options, double memoryBefore) {
     scene.setTimeStep(bulk::flowStep());
     scene.acceptUnstableTimeStep();
     measure(scene, options, memoryBefore);
+    if constexpr (SceneType::isWet) fmt::print(stderr, "{} bridges\n", scene.contacts().counts().bridged);
+}
+
+/// A drum, a hopper or a mixer in flow, or its files for other codes.
+void runFlow(const Options& options, double memoryBefore) {
+    const scenes::BenchmarkChoice& choice = options.choice;
+    const std::size_t grains = choice.particlesOr(bulk::ownFlowGrains(choice.scene));
+    const bulk::BulkScene start = bulk::flowOf(choice.scene, grains, choice.states, options.threads);
+    if (!options.peerFiles.empty()) return bulk::writePeerFolder(options.peerFiles, start, bulk::flowStep());
+    if (bulk::isWetScene(choice.scene)) measureFlow(bulk::WetPeerScene(start), options, memoryBefore);
+    else measureFlow(bulk::PeerScene(start), options, memoryBefore);
 }
 
 int run(const Options& options) {
     const bool flows = bulk::isFlowScene(options.choice.scene);
     if (options.grains && flows)
+        throw InputError(fmt::format(
+            "benchmark-scenes: the scene {} prints no grains; --peer-files writes what LIGGGHTS and "
+            "LAMMPS read.",
+            options.choice.scene));
+    if (!options.peerFiles.empty() && !flows)
         throw InputError(
-            fmt::format("benchmark-scenes: the scene {} prints no grains; its start is a file that LIGGGHTS "
-                        "reads, in the folder of --states.",
+            fmt::format("benchmark-scenes: the scene {} has no files for other codes; --grains "
+                        "prints the grains of a bed.",
                         options.choice.scene));
     if (options.grains) return printGrains(options), 0;
     scenes::check(options.choice, bulk::flowSceneNames);
     checkValue("benchmark-scenes", "steps", static_cast<double>(options.steps), "", {1, 1e12});
     checkValue("benchmark-scenes", "wander", options.wander, "of the grains", {0, 1});
     const double memoryBefore = peakMemory();
-    if (flows) return measureFlow(options, memoryBefore), 0;
+    if (flows) return runFlow(options, memoryBefore), 0;
     scenes::withBenchmarkScene(options.choice, options.threads,
                                [&](Scene& scene) { measure(scene, options, memoryBefore); });
     return 0;
@@ -277,8 +292,9 @@ int main(int argc, char** argv) {
         "large scenes, and kept in the folder of --states.");
     Options o;
     app.add_option("--scene", o.choice.scene,
-                   "in flow: flowing-drum, flowing-hopper (soft grains, a fifth of Rayleigh's time as step), "
-                   "drum (with a mesh), gas; at rest: bed, clumps, wet-bed, wet-walls, sprayed-bed, "
+                   "in flow: flowing-drum, flowing-hopper, flowing-mixer (a screw of triangles), and each "
+                   "with wet- in front (soft grains, a fifth of Rayleigh's time as step), drum (with a "
+                   "mesh), gas; at rest: bed, clumps, wet-bed, wet-walls, sprayed-bed, "
                    "polydisperse, unless --shear is given; penetration: a sphere in a bed")
         ->capture_default_str();
     app.add_option("--particles", o.choice.particles,
@@ -319,6 +335,8 @@ int main(int argc, char** argv) {
     app.add_flag(
         "--grains", o.grains,
         "print the box and the grains of a bed or a mixture instead, for another code to run the same scene");
+    app.add_option("--peer-files", o.peerFiles,
+                   "write the files of a flow for LIGGGHTS and LAMMPS to this folder instead");
     if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] { return run(o); });
 }

@@ -9,6 +9,7 @@
 #include "Drivers/Shared/GrainLattice.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Species/LawNames.h"
+#include "Kernel/Walls/TriangleReader.h"
 
 // Five small scenes that Pendular, LIGGGHTS and LAMMPS can all have: only spheres, planes and a cylinder.
 
@@ -24,6 +25,9 @@ struct PeerMaterial {
     static constexpr double radius = 1e-3;   // m, of the largest grain, but for the intruder
     static constexpr double smallest = 0.8;  // of that; even between, so that no crystal forms
     static constexpr double gravity = 9.8;   // m/s^2
+    // Of wet grains: silicone oil, which wets. A bridge pulls with 1.4 times the mean weight of a grain, so
+    // that wet grains flow, too.
+    static constexpr double bridgeVolume = 2e-11, surfaceTension = 0.02;  // m^3, N/m
 
     /// s, in which a wave goes round a grain, about: what users of other codes take a share of.
     /// Source: Ning and Ghadiri (2006), Chem. Eng. Sci. 61, 5991: pi R sqrt(rho / G) / (0.163 nu + 0.8766).
@@ -42,6 +46,13 @@ struct PeerGrain {
     Vec3D position, velocity;  // m, m/s
 };
 
+/// A wall of triangles that turns about z.
+struct PeerMesh {
+    std::string name;
+    std::vector<Triangle> triangles;
+    double spin;  // rad/s
+};
+
 /// The scene that all codes begin with. It is periodic where there is no wall; gravity points along -`up`.
 struct BulkScene {
     std::string name;
@@ -51,8 +62,9 @@ struct BulkScene {
     int up = 2;
     double cylinder = 0, spin = 0;  // m, rad/s: of a drum about z; 0: planes at the lowest faces
     double wallFriction = PeerMaterial::friction;
-    bool settles = false;  // begins with grains that have come to rest
-    bool drains = false;   // through a floor of held grains at z = 0
+    std::vector<PeerMesh> meshes{};  // in place of the cylinder
+    bool settles = false;            // begins with grains that have come to rest
+    bool drains = false;             // through a floor of held grains at z = 0
     std::vector<PeerGrain> grains{};
 };
 

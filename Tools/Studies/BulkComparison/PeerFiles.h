@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "Kernel/Files/CsvFile.h"
+#include "Kernel/Files/FileFault.h"
 #include "Tools/Studies/BulkComparison/FrameFigures.h"
 
 // What LIGGGHTS and LAMMPS begin with, and the frames that they write.
@@ -29,6 +30,50 @@ inline void writePeerData(const std::string& path, const BulkScene& scene) {
     WrittenBeside file(path);
     file.write(text);
     file.write(velocities);
+    file.close();
+}
+
+/// A mesh as a text file of STL. LIGGGHTS computes the normals.
+inline void writePeerMesh(const std::string& path, const PeerMesh& mesh) {
+    std::string text = fmt::format("solid {}\n", mesh.name);
+    for (const Triangle& triangle : mesh.triangles) {
+        text += "facet normal 0 0 0\n outer loop\n";
+        for (const Vector<double>& corner : triangle)
+            text += fmt::format("  vertex {:.12g} {:.12g} {:.12g}\n", corner.x, corner.y, corner.z);
+        text += " endloop\nendfacet\n";
+    }
+    WrittenBeside file(path);
+    file.write(text + fmt::format("endsolid {}\n", mesh.name));
+    file.close();
+}
+
+/// All that LIGGGHTS and LAMMPS need for a flow (Peers/flow.liggghts): a folder with the grains (`start`),
+/// the meshes (NAME.stl), and the numbers of the scene as commands (`variables`).
+/// @param step s
+inline void writePeerFolder(const std::filesystem::path& folder, const BulkScene& scene, double step) {
+    makeFolder(folder);
+    writePeerData((folder / "start").string(), scene);
+    double turns = 0;
+    for (const PeerMesh& mesh : scene.meshes) {
+        writePeerMesh((folder / (mesh.name + ".stl")).string(), mesh);
+        turns += mesh.spin / (2 * std::numbers::pi);  // one of them turns
+    }
+    std::string boundary;
+    for (const bool isPeriodic : scene.periodic) boundary += isPeriodic ? "p " : "f ";
+    WrittenBeside file((folder / "variables").string());
+    const auto number = [&](std::string_view name, double value) {
+        file.write(fmt::format("variable {} index {:.17g}\n", name, value));
+    };
+    file.write(fmt::format("variable boundary index \"{}\"\n", boundary));
+    number("meshed", scene.meshes.empty() ? 0 : 1);
+    number("drum", scene.cylinder > 0 ? 1 : 0);
+    number("hopper", scene.drains ? 1 : 0);
+    // m: the radius of the drum, half of the hopper
+    number("wide", scene.cylinder > 0 ? scene.cylinder : scene.highest.x());
+    number("spin", scene.spin);
+    number("period", turns > 0 ? 1 / turns : 0);  // s, of the mesh that turns
+    number("wall_friction", scene.wallFriction);
+    number("step", step);
     file.close();
 }
 

@@ -3,28 +3,37 @@
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"
 #include "Kernel/Walls/AxisymmetricWall.h"
+#include "Kernel/Walls/TriangleWall.h"
 #include "Tools/Studies/BulkComparison/BulkScene.h"
 
 namespace pendular::bulk {
 
-/// A scene of the comparison, with the laws of LIGGGHTS' `hertz tangential history`.
-class PeerScene : public Simulation<HertzianViscoelasticMindlinSpecies> {
+/// A scene of the comparison, with the laws of LIGGGHTS' `hertz tangential history`; with a bridge law
+/// between grains, as its `cohesion easo/capillary/viscous` has it, whose walls are dry.
+template <class Material>
+class PeerSceneOf : public Simulation<Material> {
 public:
-    using Material = HertzianViscoelasticMindlinSpecies;
+    static constexpr bool isWet = requires(Material & wet) { wet.setLiquidBridgeVolume(0); };
+    using Simulation<Material>::particleHandler;
+    using Simulation<Material>::speciesHandler;
+    using Simulation<Material>::wallHandler;
 
     /// @param isClosed grains settle on a plane in the opening of a floor
-    explicit PeerScene(const BulkScene& given, bool isClosed = false) {
+    explicit PeerSceneOf(const BulkScene& given, bool isClosed = false) {
         const Material* grains = speciesHandler.copyAndAddObject(material(PeerMaterial::density));
         const Material* heavy = speciesHandler.copyAndAddObject(material(3 * PeerMaterial::density));
         const Material* walls = speciesHandler.copyAndAddObject(material(PeerMaterial::density));
-        for (const Material* other : {grains, heavy})
-            speciesHandler.getMixedObject(other, walls)->setSlidingFrictionCoefficient(given.wallFriction);
+        for (const Material* other : {grains, heavy}) {
+            auto* const atWalls = speciesHandler.getMixedObject(other, walls);
+            atWalls->setSlidingFrictionCoefficient(given.wallFriction);
+            if constexpr (isWet) atWalls->setLiquidBridgeVolume(0);
+        }
         for (int axis = 0; axis < 3; ++axis)
             if (given.periodic[static_cast<std::size_t>(axis)])
-                setPeriodic(axis, given.lowest[axis], given.highest[axis]);
+                this->setPeriodic(axis, given.lowest[axis], given.highest[axis]);
         Vec3D down = Vec3D::Zero();
         down[given.up] = -PeerMaterial::gravity;
-        setGravity(down);
+        this->setGravity(down);
         addWalls(given, walls, isClosed);
         for (const PeerGrain& row : given.grains) add(row, row.kind == GrainKind::Intruder ? heavy : grains);
     }
@@ -52,9 +61,22 @@ private:
         made.setRestitutionCoefficient(M::restitution);
         made.setSlidingFrictionCoefficient(M::friction);
         made.setSpringFactor(1);  // as the peers have it
+        if constexpr (isWet) {
+            made.setLiquidBridgeVolume(M::bridgeVolume);
+            made.setSurfaceTension(M::surfaceTension);
+            made.setContactAngle(0);
+        }
         return made;
     }
     void addWalls(const BulkScene& given, const Material* walls, bool isClosed) {
+        for (const PeerMesh& mesh : given.meshes) {
+            TriangleWall wall;
+            wall.setSpecies(walls);
+            wall.set(mesh.triangles);
+            if (mesh.spin != 0) wall.setAngularVelocity({0, 0, mesh.spin}, Vec3D::Zero());
+            wallHandler.copyAndAddObject(wall);
+        }
+        if (!given.meshes.empty()) return;
         if (given.cylinder > 0) {
             FiniteCylinder wall;
             wall.setSpecies(walls);
@@ -82,7 +104,7 @@ private:
         }
         Outlet below;
         below.setPlane(-Vec3D::UnitZ(), given.lowest);
-        outletHandler.copyAndAddObject(below);
+        this->outletHandler.copyAndAddObject(below);
     }
     void add(const PeerGrain& row, const Material* species) {
         SphericalParticle grain;
@@ -94,6 +116,9 @@ private:
         particleHandler.copyAndAddObject(grain);
     }
 };
+
+using PeerScene = PeerSceneOf<HertzianViscoelasticMindlinSpecies>;
+using WetPeerScene = PeerSceneOf<HertzianViscoelasticMindlinLiquidBridgeSoulieSpecies>;
 
 /// Grains and places of a scene that begins at rest: settled by the default at a small step.
 inline BulkScene startOf(const std::string& name, std::uint64_t seed) {

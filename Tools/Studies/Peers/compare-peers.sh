@@ -1,14 +1,20 @@
 #!/usr/bin/env bash
 # Runs the same scenes in Pendular and in those of LIGGGHTS, LAMMPS and YADE that are installed, in turn, on one core or some
 # each, and writes the medians as a table (CSV) and a chart (PNG).
-#   Tools/Studies/Peers/compare-peers.sh [--scenes "bed wet-bed mixture sheared-mixture clumps"] [--particles "25000 250000"] [--runs 3] [--cores 1] [--output FOLDER]
-#                          [--bed FILE] [--drum FILE --drum-walls FILE]
-# --scenes     bed: dry, of the numbers of --particles; wet-bed: the first of these, with liquid bridges (Bagheri's law and the
+#   Tools/Studies/Peers/compare-peers.sh [--scenes "flowing-drum flowing-hopper flowing-mixer wet-flowing-drum wet-flowing-hopper wet-flowing-mixer
+#                          bed wet-bed mixture sheared-mixture clumps"] [--sizes "1000 30000 300000"] [--particles "25000 250000"] [--runs 3] [--cores 1]
+#                          [--output FOLDER] [--states FOLDER] [--skins "2e-4 4e-4 8e-4"] [--prefix "chrt -f 10 taskset -c 1"] [--bed FILE] [--drum FILE --drum-walls FILE]
+# --scenes     in flow, of the numbers of --sizes, 5 MPa and steps of 0.2 of Rayleigh's time: flowing-drum, flowing-hopper and
+#              flowing-mixer (a screw of triangles); with wet- in front: with bridges that form and rupture (Soulie's force, as
+#              LIGGGHTS' easo/capillary/viscous has it). Their starts are made once and kept in --states; 1000 are the scene's own
+#              number (960 to 1500), 300 000 ten copies of 30 000 along the period. LIGGGHTS has the best of --skins, LAMMPS only the dry drum and hopper.
+#              At rest: bed: dry, of the numbers of --particles; wet-bed: the first of these, with liquid bridges (Bagheri's law and the
 #              exact one), beside LIGGGHTS' easo/capillary/viscous; mixture: 20 000 grains, radii 1 to 10, two sizes of equal
 #              volume, beside LIGGGHTS with cells of one size: with cells by size ("multi") version 3.8.0 finds no neighbours;
 #              sheared-mixture: the same, whose grains start with 100 1/s times their height as speed along x; LIGGGHTS with
 #              a skin of 1 mm, the best of 0.2, 0.5, 1 and 2 mm; clumps: beds of 10 000 spheres in clumps of 2 (a rod), 4 (a square)
 #              and 8 (a cube) that touch, which LIGGGHTS inserts as multispheres and lets settle first (minutes)
+# --prefix     in front of each program, for example to pin it to a core
 # --cores N    threads of Pendular and YADE; processes of LIGGGHTS and LAMMPS by mpirun, which share the beds along x, and from
 #              8 on (an even number) along x and y: all layers of a bed weigh alike
 # --bed FILE   rows radius x y z: the bed of Dosta et al. (2024) instead of the one that Pendular makes by itself
@@ -17,19 +23,24 @@
 set -euo pipefail
 study=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 tools=$study/../..
-scenes=bed particles="25000 250000" runs=3 cores=1 output=peers bed="" drum="" drum_walls="" build="$tools/../build/release"
+scenes="flowing-drum flowing-hopper flowing-mixer wet-flowing-drum wet-flowing-hopper wet-flowing-mixer" sizes="1000 30000 300000" skins="2e-4 4e-4 8e-4"
+prefix="" states="" particles="25000 250000" runs=3 cores=1 output=peers bed="" drum="" drum_walls="" build="$tools/../build/release"
 command_line="Tools/Studies/Peers/compare-peers.sh $*"
 source "$tools/read-options.sh"
-read_options scenes particles runs cores output bed drum drum-walls build -- "$@"
-read -ra sizes <<<"$particles"
-for number in "${sizes[@]:-}"; do require_number particles "$number"; done
+read_options scenes sizes particles runs cores output states skins prefix bed drum drum-walls build -- "$@"
+read -ra bed_sizes <<<"$particles"
+for number in "${bed_sizes[@]:-}"; do require_number particles "$number"; done
+read -ra flow_sizes <<<"$sizes"
+for number in "${flow_sizes[@]:-}"; do require_number sizes "$number"; done
+read -ra pinned <<<"$prefix"
 require_number runs "$runs"
 require_number cores "$cores"
 read -ra scene_names <<<"$scenes"
 for scene in "${scene_names[@]:-}"; do
     case $scene in
+    flowing-drum | flowing-hopper | flowing-mixer | wet-flowing-drum | wet-flowing-hopper | wet-flowing-mixer) ;;
     bed | wet-bed | mixture | sheared-mixture | clumps) ;;
-    *) refuse "--scenes: '$scene' is none of bed, wet-bed, mixture, sheared-mixture, clumps" ;;
+    *) refuse "--scenes: '$scene' is none of flowing-drum, flowing-hopper, flowing-mixer, these with wet- in front, bed, wet-bed, mixture, sheared-mixture, clumps" ;;
     esac
 done
 require_file bed "$bed"
@@ -47,6 +58,7 @@ output=$(realpath "$output")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export OMP_NUM_THREADS=1
+states=${states:-$output/states}
 
 # How a peer starts on all cores, and the grid by which it shares a bed.
 launch=()
@@ -72,7 +84,7 @@ parse_log() {  # scene, code, log
 run_peer() {  # scene, code, command...
     local scene=$1 code=$2 log=$work/$2.log
     shift 2
-    if (cd "$work" && ${launch[@]+"${launch[@]}"} "$@" >"$log" 2>&1); then
+    if (cd "$work" && ${pinned[@]+"${pinned[@]}"} ${launch[@]+"${launch[@]}"} "$@" >"$log" 2>&1); then
         parse_log "$scene" "$code" "$log"
     else
         say "$code failed: $(tail -1 "$log")"
@@ -108,13 +120,56 @@ prepare_bed() {  # options of benchmark-scenes for the scene...
 run_ours() {  # name of the row, scene, options of benchmark-scenes...
     local name=$1 scene=$2 row
     shift 2
-    row=$("$ours" "$@" --threads "$cores" --steps "$steps" --warm "$warm") || exit 1
+    row=$(${pinned[@]+"${pinned[@]}"} "$ours" "$@" --threads "$cores" --steps "$steps" --warm "$warm") || exit 1
     parse_ours "$scene" "$name" "$row"
 }
 run_liggghts() {  # scene, model
     if command -v liggghts >/dev/null; then
         run_peer "$1" liggghts liggghts -in "$study/bed.liggghts" "${vars[@]}" -var model "$2"
     fi
+}
+
+# A flow: of each code the numbers of grains that it starts with count, as some leave.
+run_flow() {  # scene, grains
+    local scene=$1 steps warm wet=0 codes=(pendular) skin best start folder=$work/flow atoms before
+    before=$(wc -l <"$raw")
+    steps=$(awk -v n="$2" 'BEGIN { s = int(4e6 / n); print (s > 4000 ? 4000 : s < 200 ? 200 : s) }')
+    warm=$((steps / 2 > 1000 ? 1000 : steps / 2 < 100 ? 100 : steps / 2))
+    local options=(--scene "$scene" --states "$states")
+    (($2 == 1000)) || options+=(--particles "$2")
+    rm -rf "$folder"
+    say "$scene of $2: the start"
+    "$ours" "${options[@]}" --threads "$(nproc)" --peer-files "$folder"
+    atoms=$(awk '/ atoms$/ { print $1; exit }' "$folder/start")
+    [[ $scene != wet-* ]] || wet=1
+    if command -v liggghts >/dev/null; then codes+=(liggghts); fi
+    if command -v lmp >/dev/null && [[ $scene == flowing-drum || $scene == flowing-hopper ]]; then codes+=(lammps); fi
+    flow_peer() {  # code, skin, warm, steps; into raw
+        local program=liggghts
+        [[ $1 != lammps ]] || program=lmp
+        run_peer "$scene" "$1" "$program" -in "$study/flow.$1" -var folder "$folder" -var wet "$wet" -var skin "$2" -var warm "$3" -var steps "$4"
+    }
+    local -A skin_of=()
+    for code in "${codes[@]:1}"; do
+        best=1e9 skin_of[$code]=${skins%% *}
+        for skin in $skins; do
+            if [[ $skins == "$skin" ]]; then break; fi
+            start=$(wc -l <"$raw")
+            flow_peer "$code" "$skin" $((warm / 2)) $((steps / 4))
+            if awk -F, -v n="$start" -v best="$best" 'NR > n && $5 < best { found = 1 } END { exit !found }' "$raw"; then
+                best=$(tail -1 "$raw" | cut -d, -f5) skin_of[$code]=$skin
+            fi
+            head -n "$start" "$raw" >"$work/kept" && mv "$work/kept" "$raw"
+        done
+        say "$code: a skin of ${skin_of[$code]} m"
+    done
+    for ((run = 1; run <= runs; ++run)); do
+        say "$scene of $2, run $run of $runs"
+        run_ours pendular "$scene" "${options[@]}"
+        for code in "${codes[@]:1}"; do flow_peer "$code" "${skin_of[$code]}" "$warm" "$steps"; done
+    done
+    awk -F, -v OFS=, -v scene="$scene" -v n="$atoms" -v before="$before" 'NR > before { $3 = n } 1' "$raw" >"$work/kept"
+    mv "$work/kept" "$raw"
 }
 
 run_bed() {  # particles
@@ -196,8 +251,9 @@ run_drum() {
 
 for scene in "${scene_names[@]}"; do
     case $scene in
-    bed) for n in "${sizes[@]}"; do run_bed "$n"; done ;;
-    wet-bed) run_wet_bed "${sizes[0]}" ;;
+    *flowing-*) for n in "${flow_sizes[@]}"; do run_flow "$scene" "$n"; done ;;
+    bed) for n in "${bed_sizes[@]}"; do run_bed "$n"; done ;;
+    wet-bed) run_wet_bed "${bed_sizes[0]}" ;;
     mixture) run_mixture mixture 0 2e-4 ;;
     sheared-mixture) run_mixture sheared-mixture 100 1e-3 ;;
     clumps) for n in 2 4 8; do run_clumps "$n"; done ;;
