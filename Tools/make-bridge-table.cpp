@@ -30,7 +30,7 @@ void printProduct(const auto& product) {
 
 void printTable(const BridgeTable& table) {
     fmt::print(
-        "// Written by Tools/make-bridge-table; not by hand.\n// clang-format off\n\n"
+        "// Written by make-bridge-table; not by hand.\n// clang-format off\n\n"
         "#include \"Kernel/Capillary/BridgeTable.h\"\n\nnamespace pendular {{\n\n"
         "const std::uint64_t bridgeTableChecksum = {:#x};\n\nconst BridgeTable bridgeTable{{\n",
         checksum(table));

@@ -63,7 +63,7 @@ void print(const std::string& path, const std::string& begin, bool namesOnly) {
 int main(int argc, char** argv) {
     CLI::App app(
         "Prints what is in a restart file: its tables, each after a line with its name, rows and columns.\n"
-        "Numbers have all their digits; what they mean is in Kernel/Output/README.md.");
+        "Numbers have all their digits; the page on output says what they mean.");
     std::string path, begin;
     bool namesOnly = false;
     app.add_option("file", path, "the restart file")->required();

@@ -182,7 +182,7 @@ int main(int argc, char** argv) {
     CLI::App app(
         "Grain sizes: means, quantiles, and the curves on all bases, as CSV; grains drawn from them. "
         "The file is a table of two columns, as in diameter_mm,cumulative_volume; "
-        "Kernel/Sizes/README.md describes it.");
+        "the page on size distributions describes it.");
     Options o;
     app.option_defaults()->always_capture_default();
     app.add_option("--file", o.file, "table of sizes");

@@ -36,7 +36,7 @@ int run(Options o) {
 int main(int argc, char** argv) {
     CLI::App app(
         "Advises the softest Young's modulus of grains, for the figures that a run is made for, and how much "
-        "faster the run is. Where it comes from: Kernel/Motion/README.md.");
+        "faster the run is. The page on the time step says where it comes from.");
     Options o;
     std::string names;
     for (const WantedFigure figure : allWantedFigures())

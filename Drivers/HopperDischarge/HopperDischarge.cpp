@@ -28,10 +28,10 @@ void describe(CLI::App& app, Options& o) {
     app.add_option("--hopper-diameter-m", o.hopper.diameter, "diameter of the hopper, m");
     app.add_option("--grain-diameter-m", o.hopper.grainDiameter,
                    "mean diameter of the grains, m; they spread by 10 % to either side");
-    app.add_option(
-           "--sizes", o.sizes,
-           "CSV file of the grains' sizes, as Kernel/Sizes/README.md says; the mean diameter is then the "
-           "median by volume")
+    app.add_option("--sizes", o.sizes,
+                   "CSV file of the grains' sizes, as the page on size distributions says; the mean diameter "
+                   "is then the "
+                   "median by volume")
         ->type_name(fileName)
         ->excludes("--grain-diameter-m");
     app.add_option("--cone-deg", o.cone,

@@ -120,7 +120,7 @@ double memoryThere() {
 
 void checkNumberOfGrains(std::string_view program, std::size_t number) {
     checkValue(program, "number of grains", static_cast<double>(number), "", {1, 1e8});
-    constexpr double bytesOfGrain = 472;  // at the peak, of a bed of 1 000 000 (Kernel/Contacts/README.md)
+    constexpr double bytesOfGrain = 472;  // at the peak, of a bed of 1 000 000 (page on contacts)
     const double there = memoryThere(), needed = bytesOfGrain * static_cast<double>(number);
     if (there > 0 && needed > there)
         throw InputError(fmt::format(

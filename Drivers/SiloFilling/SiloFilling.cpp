@@ -79,7 +79,8 @@ int main(int argc, char** argv) {
         .options = o.run,
         .addOptions =
             [&](CLI::App& app) {
-                app.add_option("--sizes", o.sizes, "CSV file of sizes instead (Kernel/Sizes/README.md)")
+                app.add_option("--sizes", o.sizes,
+                               "CSV file of sizes instead (see the page on size distributions)")
                     ->type_name(fileName);
             },
         .files = "pressure.csv",

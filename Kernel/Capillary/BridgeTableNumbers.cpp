@@ -1,4 +1,4 @@
-// Written by Tools/make-bridge-table; not by hand.
+// Written by make-bridge-table; not by hand.
 // clang-format off
 
 #include "Kernel/Capillary/BridgeTable.h"

@@ -69,7 +69,7 @@ public:
 /// loaded, where it registers none, and what registerSpecies() would throw.
 ///
 /// The library is compiled with the headers and flags of the kernel and not linked to it: the program has the
-/// kernel, all of it, and lets the library use it (Kernel/README.md says how), so that nothing is there
+/// kernel, all of it, and lets the library use it (the page on the kernel says how), so that nothing is there
 /// twice.
 void loadSpeciesLibrary(const std::filesystem::path& library);
 

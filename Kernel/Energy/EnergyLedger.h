@@ -53,7 +53,7 @@ struct EnergyLedger {
     double evaporation = 0;  // negative while drying bridges get weaker at the same gap
 
     /// Work of conservative forces that is not found as stored energy: it falls with the time step, except
-    /// for springs that the integrator feeds (the README of Kernel/Motion), and for an attraction without
+    /// for springs that the integrator feeds (the page on the time step), and for an attraction without
     /// hysteresis (ReversibleAdhesive, DMT) that acts already at the start: its energy is counted from there,
     /// and what it had is in this entry from when the pair first leaves its range.
     double stepError = 0;

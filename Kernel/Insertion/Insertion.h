@@ -56,7 +56,7 @@ struct Inserted {
     double mass = 0, wantedMass = 0;  // kg; wanted: the amount asked for
     double solidFraction = 0;         // of the region
     double firstLeftOut = 0;          // m, radius of the first grain that found no room; 0: all did
-    double orientationOrder = 0;      // S of the clumps that were inserted (Particles/OrientationOrder.h)
+    double orientationOrder = 0;      // S of the clumps that were inserted (OrientationOrder.h)
 };
 
 /// Up to this solid fraction grains are placed one after the other, at random points that are free, the

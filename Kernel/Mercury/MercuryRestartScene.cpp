@@ -31,7 +31,7 @@ void requireType(const MercuryRestart& state, const MercuryRestart::Species& spe
     } catch (const InputError&) {
         state.refuse(species.line,
                      fmt::format("this program has no species type '{0}'; if the kernel has its laws, call "
-                                 "registerSpecies<{0}>() (Kernel/Contacts/SpeciesRegistry.h) before",
+                                 "registerSpecies<{0}>() (SpeciesRegistry.h) before",
                                  shownName(species.type)));
     }
 }

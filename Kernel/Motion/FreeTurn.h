@@ -8,7 +8,7 @@ namespace pendular {
 /// Turns a free body by a time (s): a symmetric splitting about its principal axes 1, 2, 3, 2, 1, of second
 /// order, that keeps the angular momentum in space (it is not touched) and the energy of a nearby problem.
 /// Source: Dullweber, Leimkuhler and McLachlan (1997), J. Chem. Phys. 107, 5840, with rational turns instead
-/// of sines: by 2 arctan(angle / 2). The README of Kernel/Motion compares it with others.
+/// of sines: by 2 arctan(angle / 2). The page on the time step compares it with others.
 /// @param inertia kg m^2, about the principal axes; @param momentum kg m^2/s, in space
 template <Number T>
 QuaternionOf<T> turnedFreely(const QuaternionOf<T>& orientation, const Vector<T>& inertia,

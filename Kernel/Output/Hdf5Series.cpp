@@ -38,7 +38,7 @@ void Hdf5Series::prepare() {
     if (!Hdf5File::isAvailable())
         throw InputError(
             "This build of Pendular has no HDF5 library and writes no fields with it: install the library "
-            "(Tools/install-dependencies.sh) and build again.");
+            "(install-dependencies.sh of the source) and build again.");
 }
 
 Hdf5Series::Times Hdf5Series::readIndex(const std::filesystem::path& path) {
@@ -109,7 +109,7 @@ void Hdf5Series::writeIndex() const {
     }
     index.column("/", {"step", 1, std::move(steps)});
     index.column("/", {"time_s", 1, std::move(seconds)});
-    index.attribute("/", "content", "frames of a run of Pendular: Kernel/Output/README.md has the format");
+    index.attribute("/", "content", "frames of a run of Pendular: the page on output has the format");
     index.close();
 }
 

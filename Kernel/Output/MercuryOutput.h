@@ -16,7 +16,7 @@ class WallHandler;
 
 /// The files NAME.data, NAME.fstat and NAME.ene of MercuryDPM, for the tools of its users (XBalls, MercuryCG,
 /// scripts). Given to Simulation::addOutput(); the energies need keepSpringEnergy(). Source of the columns:
-/// MercuryDPM's documentation, "Visualising your results", 3D; see the README of this folder.
+/// MercuryDPM's documentation, "Visualising your results", 3D; see the page on output.
 class MercuryOutput {
 public:
     /// @param beginning NAME; that of the simulation if empty

@@ -17,8 +17,7 @@ namespace pendular {
 /// on.
 inline constexpr const char* inOtherCalls =
     "Ranks wait for each other in different calls: gather(), writeRestart(), sumOverRanks() and others that "
-    "say "
-    "so must be called on all ranks, in the same order (Kernel/Ranks/README.md).";
+    "say so must be called on all ranks, in the same order (see the page on ranks).";
 
 /// What a reduction is for: where ranks wait in different ones, the run ends with that sentence.
 enum class Reduction { Number, Step, Decisions, SetUp };

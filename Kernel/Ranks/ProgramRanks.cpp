@@ -51,10 +51,10 @@ ProcessRanks* startRanks() {
                         started.variable, started.count, howToRunAlone));
     void* const module = openModule();
     if (!module)
-        throw InputError(
-            fmt::format("{}, but this build of Pendular has no MPI: install libopenmpi-dev "
-                        "(Tools/install-dependencies.sh --mpi) and build again with PENDULAR_MPI=ON, or {}.",
-                        othersOf(started), howToRunAlone));
+        throw InputError(fmt::format(
+            "{}, but this build of Pendular has no MPI: install libopenmpi-dev "
+            "(install-dependencies.sh --mpi of the source) and build again with PENDULAR_MPI=ON, or {}.",
+            othersOf(started), howToRunAlone));
     const auto make = reinterpret_cast<ProcessRanks* (*)()>(dlsym(module, "makePendularRanks3"));
     if (!make)
         throw InputError(fmt::format(

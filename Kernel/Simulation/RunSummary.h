@@ -11,9 +11,9 @@ class Scene;
 
 /// NAME-summary.csv, rewritten at outputs, once a second at most, and at the end: what runs, with which
 /// species and values, how far it is, where its time went, and what tells whether it is healthy.
-/// Tools/summary shows it. At the end of a run, whatever ended it, it is printed on standard error as well,
-/// except for the species, and with it what the laws were not made for; a quiet scene prints nothing. Given
-/// to Simulation::addOutput(); the time by part of the step is measured from then on.
+/// The program summary shows it. At the end of a run, whatever ended it, it is printed on standard error as
+/// well, except for the species, and with it what the laws were not made for; a quiet scene prints nothing.
+/// Given to Simulation::addOutput(); the time by part of the step is measured from then on.
 ///
 /// Times are those of this program; all else is of the scene since it began, also before a restart.
 class RunSummary : public RemembersNothing {

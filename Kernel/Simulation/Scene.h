@@ -124,7 +124,7 @@ public:
     void setStrainRate(int axis, double rate);
     /// Strains the scene by a servo, so that the mean stress along the axis (Pa, compression positive; 0 is a
     /// target too) becomes the target: the rate is the difference over the stiffness of the contacts and the
-    /// time (s), and what it takes to follow grains that flow or creep (Kernel/Particles/Servo.h), at most
+    /// time (s), and what it takes to follow grains that flow or creep (see Servo.h), at most
     /// the largest rate (1/s), 0.1 / time if it is not given. The time must be more than half a step; take at
     /// least twice the time in which sound passes the scene. The stress is looked at 100 times in it, or at
     /// each step. A run in which the servo has strained the scene by a factor of e^3 in one direction ends.
@@ -147,7 +147,7 @@ public:
     [[nodiscard]] const PeriodicBox& getPeriodicBox() const;
     /// Threads, at least 1; the results do not depend on their number.
     void setNumberOfThreads(int count);
-    /// The scene shares its grains with other ranks (Kernel/Ranks): each sets up all of it, and from
+    /// The scene shares its grains with other ranks (MPI): each sets up all of it, and from
     /// initialise() on has its own grains only; the results do not depend on the number of ranks. What needs
     /// all grains or contacts is refused until gather(); SumsOverRanks.h has sums over all. Before the run;
     /// the exchange must outlive it. Where mpirun or srun has started several processes, solve(), runTo() and
@@ -162,7 +162,7 @@ public:
     [[nodiscard]] double largestOfRanks(double own) const;
     /// What this rank has done; nothing without others.
     [[nodiscard]] RankCounts rankCounts() const;
-    /// How velocities follow from forces; before the run. The README of Kernel/Motion compares them.
+    /// How velocities follow from forces; before the run. The page on the time step compares them.
     void setIntegrator(const Integrator& scheme);
     /// Runs also with a step above the stability limit. That is sound only where overlaps stay so small that
     /// the contacts are softer than those of the limit, or where no bed comes to rest; else the results mean
@@ -280,7 +280,7 @@ public:
     /// The time step (s) above which the stiffest possible contacts of this scene, in the densest bed, are no
     /// longer stable: by their springs and dashpots, and the integrator. With Hertz-Mindlin it is 0.03 to
     /// 0.24 of Rayleigh's time, by the damping, which the usual share of 0.2 does not know
-    /// (Kernel/Motion/README).
+    /// (the page on the time step).
     [[nodiscard]] double stabilityLimit();
     /// The limit (s) of a scene to which grains of these sizes and species will come.
     [[nodiscard]] double stabilityLimit(std::span<const SphericalParticle> toCome);
@@ -294,7 +294,7 @@ public:
     /// The time step follows the contacts (AdaptiveStep): a share (above 0, up to 1; with 0.9 bulk figures
     /// were the same to 2.4 %) of what they and those that may come stand, at most 0.9 over the highest
     /// frequency of two grains (shortestContactTime() 0.9 / pi) and at most the largest step (s). The run
-    /// begins with setTimeStep(). At set-up. Kernel/Step/README.md says what it does not go with.
+    /// begins with setTimeStep(). At set-up. The page on steps says what it does not go with.
     void setAdaptiveTimeStep(double share, std::optional<double> largestStep = {});
     [[nodiscard]] const AdaptiveStep& adaptiveTimeStep() const;
     /// The time step for an error (1) of collisions at a speed (m/s): findStepForError() says how it is
@@ -313,7 +313,7 @@ public:
     /// The sizes of all these grains, and of those that inlets will bring.
     [[nodiscard]] GrainSizes grainSizes(const ParticleStore& grains) const;
     /// Half a period (s) of the fastest oscillation of two grains: about the shortest time of a contact, for
-    /// steps that are as accurate as is wanted (the README of Kernel/Motion says which).
+    /// steps that are as accurate as is wanted (the page on the time step says which).
     [[nodiscard]] double shortestContactTime();
 
 protected:

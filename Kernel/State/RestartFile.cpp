@@ -118,7 +118,7 @@ void requireRestartFiles() {
     if (!Hdf5File::isAvailable())
         throw InputError(
             "This build of Pendular has no HDF5 library and keeps no restart files: install the library "
-            "(Tools/install-dependencies.sh) and build again.");
+            "(install-dependencies.sh of the source) and build again.");
 }
 
 void writeRestartFile(const fs::path& path, const std::function<void(StateArchive&)>& visit) {
@@ -160,8 +160,7 @@ void checkRestartFile(const fs::path& path) {
     const std::string_view start(text.data(), length);
     if (start.starts_with("MercuryDPM ") || start.starts_with("restart_version "))
         refuse(
-            "is one of MercuryDPM's, in text: a scene of Kernel/MercuryScene.h (Mercury3D) starts from it, "
-            "by "
+            "is one of MercuryDPM's, in text: a scene of MercuryScene.h (Mercury3D) starts from it, by "
             "readRestartFile()");
     if (found < 1) refuse("is not a restart file of Pendular, or its start is damaged");
     if (seal.format >= 1 && seal.format != restartFormat)

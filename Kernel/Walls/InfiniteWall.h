@@ -32,7 +32,7 @@ public:
     void setPiston(double mass, double load);
     /// A servo: it has the speed (the force of the grains - the target, N) / (stiffness of its contacts x
     /// time) and what it takes to follow a bed that moves, at most the largest speed (m/s):
-    /// Kernel/Particles/Servo.h. The time (s) must be more than half a step; take at least twice the time in
+    /// Servo.h. The time (s) must be more than half a step; take at least twice the time in
     /// which sound passes the bed. The force is looked at 100 times in it, or at each step.
     void setTargetForce(double force, double time, double largestSpeed);
 

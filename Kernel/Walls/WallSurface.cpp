@@ -30,7 +30,7 @@ Polygon clipped(const Polygon& polygon, const HalfSpace& half, double slack) {
 /// Walls farther away than so many of the longest sides of the box do not widen it: a lid that was moved out
 /// of the way would make the scene small in its picture. A particle that falls from 30 times its diameter is
 /// still shown with the floor.
-constexpr double farthest = 20;
+constexpr double farthestShown = 20;
 
 [[nodiscard]] bool isEmpty(const Box& box) { return !(box.lowest.x <= box.highest.x); }
 
@@ -116,7 +116,7 @@ private:
         return box;
     }
     [[nodiscard]] static Box limitsOf(const Box& box) {
-        const double reach = farthest * longestSide(box);
+        const double reach = farthestShown * longestSide(box);
         const Vector<double> by{reach, reach, reach};
         return {box.lowest - by, box.highest + by};
     }

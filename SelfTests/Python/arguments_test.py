@@ -135,7 +135,7 @@ def test_sentences_are_about_errors_alone():
 MATERIAL = dict(density=2500, stiffness=300)
 UNCOMPILED = ("HertzianViscoelasticMindlinPartialSlip is a species of Pendular, but it is not compiled into this module; build the "
               "module with its name in -DPENDULAR_PYTHON_SPECIES, or load a library that has it by load_species() "
-              "(Tools/Python/README.md).")
+              "(see the page on Python).")
 # What the kernel refuses, in words of Python.
 SENTENCES = {
     "without the mass": (lambda s: s.add_species("LinearViscoelastic", density=2500, collision_time=1e-4, restitution_coefficient=0.5),
@@ -155,7 +155,7 @@ SENTENCES = {
         lambda s: pendular.Scene(superquadrics="HertzianViscoelasticMindlinIncremental"),
         "HertzianViscoelasticMindlinIncremental is a species of Pendular, but superquadrics of it are not compiled into this module; "
         'build the module with -DPENDULAR_PYTHON_SHAPED_SPECIES="{};HertzianViscoelasticMindlinIncremental" '
-        "(Tools/Python/README.md).".format(";".join(name.removesuffix("Species") for name in pendular.shaped_species()))),
+        "(see the page on Python).".format(";".join(name.removesuffix("Species") for name in pendular.shaped_species()))),
     "a field to read": (lambda s: s.glass.get("young_modulus"), "young_modulus can be set and not read, as fields are computed from it; "
                         "fields() has them."),
     "force that is not kept": (lambda s: s.wall(0).force, "A wall's force needs the forces on it, which are not summed unless keep_forces() of "

@@ -69,7 +69,7 @@ std::string inPython(std::string sentence) {
           {"this program; register it by registerSpecies<Type>(), or load a library that does by "
            "loadSpeciesLibrary()",
            "this module; build the module with its name in -DPENDULAR_PYTHON_SPECIES, or load a library that "
-           "has it by load_species() (Tools/Python/README.md)"},
+           "has it by load_species() (see the page on Python)"},
           {"instantiated species", "species"}})
         for (std::size_t at = sentence.find(name); at != std::string::npos; at = sentence.find(name))
             sentence.replace(at, std::string_view(name).size(), known);

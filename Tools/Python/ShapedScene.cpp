@@ -101,7 +101,7 @@ std::vector<std::string_view> shapedSpecies() {
     throw InputError(
         fmt::format("{} is a species of Pendular, but superquadrics of it are not compiled into this module; "
                     "build the module with -DPENDULAR_PYTHON_SHAPED_SPECIES=\"{}\" "
-                    "(Tools/Python/README.md).",
+                    "(see the page on Python).",
                     type, list));
 }
 

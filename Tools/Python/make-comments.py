@@ -38,7 +38,6 @@ WORDS = [
 def in_python(text):
     """Names of functions and fields as they are in Python; lines as they flow."""
     text = re.sub(r"@param (\w+)", lambda m: f"\n{snake(m[1])}:", text)
-    text = re.sub(r"\b(?:Kernel/)?\w+/[\w/]+\.(?:h|md)\b", lambda m: m[0], text)
     text = re.sub(r"\b([a-z]{2,}(?:[A-Z][a-z0-9]*)+)\b", lambda m: snake(m[1]), text)
     text = re.sub(r"\bset_(\w+)\(\)", r"set_\1()", text).replace("Throws InputError", "Raises InputError")
     for pattern, by in WORDS:
@@ -89,6 +88,10 @@ def main():
     missing = [name for name in wanted if name not in known]
     if missing:
         sys.exit(f"make-comments.py: no comment in {kernel} at {', '.join(missing)}.")
+    # Who reads help() has no source at hand: pages are named by what they are about.
+    paths = [name for name in wanted if re.search(r"\b(?:Kernel|Tools|Drivers|SelfTests)/", known[name])]
+    if paths:
+        sys.exit(f"make-comments.py: help() would name a path of the repository at {', '.join(paths)}.")
     rows = "".join(f'    {{"{n}", R"~({in_python(known[n])})~"}},\n' for n in wanted)
     output.parent.mkdir(parents=True, exist_ok=True)
     output.write_text(

@@ -92,7 +92,7 @@ void check(const Options& o) {
     checkValue("view", "--memory-MB", o.memory, "MB", {200, 1e6});
     if (!std::filesystem::exists(std::filesystem::path(o.page) / "main.js"))
         throw InputError(
-            fmt::format("view: the page is not in {}; in the source, Tools/view.sh builds it.", o.page));
+            fmt::format("view: the page is not in {}; view.sh of the source builds it.", o.page));
     if (o.frameOf.find_first_of(" ;,'\"\n") != std::string::npos)
         throw InputError("view: --frame-of must be one address, as http://localhost:8888.");
 }

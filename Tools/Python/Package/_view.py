@@ -26,7 +26,7 @@ def _command() -> List[str]:
     installed = shutil.which("pendular")
     if installed:
         return [installed, "view"]
-    raise _kernel.InputError("view() finds no program view: build it (Tools/view.sh), install the Debian package, or name it by "
+    raise _kernel.InputError("view() finds no program view: build it (view.sh of the source), install the Debian package, or name it by "
                              "PENDULAR_VIEW in the environment.")
 
 
@@ -42,7 +42,7 @@ def _place(run: Union[Path, "_kernel.Scene"]) -> Tuple[str, str]:
 
 
 def _text_of(name: str) -> str:
-    """As the server writes the name of a run: what is no UTF-8 is "%E9", and "%" is "%25" (Tools/View/NameText.h)."""
+    """As the server writes the name of a run: what is no UTF-8 is "%E9", and "%" is "%25" (NameText.h)."""
     return re.sub("[\udc80-\udcff]", lambda byte: f"%{ord(byte[0]) - 0xdc00:02X}", name.replace("%", "%25"))
 
 
@@ -68,7 +68,7 @@ def _is_notebook() -> bool:
 
 
 def view(run: Union[Path, "_kernel.Scene"] = ".", *, height: int = 700, frame_of: str = "http://localhost:*") -> Optional[Any]:
-    """Shows a run, or all runs of a folder, in the browser (Tools/View): in a notebook as a frame of it, which is returned;
+    """Shows a run, or all runs of a folder, in the browser: in a notebook as a frame of it, which is returned;
     elsewhere it prints the address. The server is started once for a folder, and ends with this process.
 
     run: a folder; the name of a run, what its files begin with ("results/drum"); or a Scene. height: of the

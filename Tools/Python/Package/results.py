@@ -63,7 +63,7 @@ def table(file: Path) -> pandas.DataFrame:
 
 
 def restart(file: Path) -> Columns:
-    """All tables of a restart file, by their names: "particles/translation", ... (Kernel/Output/README.md lists them)."""
+    """All tables of a restart file, by their names: "particles/translation", ... (the page on output lists them)."""
     return _kernel._read_tables(_existing(file), "")
 
 
