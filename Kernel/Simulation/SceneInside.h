@@ -132,6 +132,7 @@ public:
 
     Vector<double> lowestAtSetUp{0, 0, 0}, lengthAtSetUp{0, 0, 0};  // m, of the box
     std::optional<StepForError> stepForError;                       // by which the time step was chosen
+    std::optional<StepForFigure> stepForFigure;
     GrainSizes checkedSizes;
     double checkedRadii = 1;                       // the largest ratio of radii of the shapes (GrainShapes.h)
     double checkedStep = unset;                    // s

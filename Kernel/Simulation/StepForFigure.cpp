@@ -1,0 +1,111 @@
+#include "Kernel/Simulation/StepForFigure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Motion/SceneLimits.h"
+#include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Simulation/ChosenTimeStep.h"
+#include "Kernel/Simulation/OverlapEstimate.h"
+#include "Kernel/Simulation/Scene.h"
+#include "Kernel/Simulation/SoftestModulus.h"
+#include "Kernel/Species/Field.h"
+
+namespace pendular {
+namespace {
+
+/// Up to these steps over the shortest period of two grains, 1 / omega, a figure deviated by at most these
+/// errors from runs with a step of 0.166 / omega: the mean deviation of ten starts with two standard errors,
+/// the largest of the scenes and of all shorter steps. Tools/Studies/Results/bulk-steps.csv.
+inline constexpr std::array measuredSteps{0.5, 0.9, 1.32};
+struct MeasuredFigure {
+    WantedFigure figure;
+    std::array<double, measuredSteps.size()> errors;
+};
+constexpr std::array<MeasuredFigure, 5> measured{{
+    {WantedFigure::SolidFraction, {0.01, 0.01, 0.01}},
+    {WantedFigure::Friction, {0.01, 0.01, 0.01}},
+    {WantedFigure::ContactsAtRest, {0.01, 0.01, 0.01}},
+    {WantedFigure::ContactsInFlow, {0.01, 0.01, 0.01}},
+    {WantedFigure::Fluctuations, {0.01, 0.01, 0.01}},
+}};
+
+constexpr std::string_view measuredSpecies = "HertzianViscoelasticMindlinSpecies";
+constexpr double mostOverlapBySpeed = 0.11;  // of the smaller radius: what the runs had by estimateOverlaps()
+
+/// Why the runs say nothing of a scene; empty where they do.
+std::string reasonOfDoubt(Scene& scene) {
+    const ParticleStore& grains = scene.particleHandler.store();
+    if (scene.laws().shapes() || grains.bodies.size() > 0 || scene.laws().grainsAreDiscs())
+        return "spheres alone were measured";
+    if (scene.scheme().name != integrators::predictedVelocityVerlet.name)
+        return fmt::format("{} was not measured", scene.scheme().name);
+    std::string other;
+    forEachExtremePair(scene.laws(), scene.grainSizes(grains), scene.wallHandler,
+                       [&](const PairLaws& pair, const Bodies&, double) {
+                           const std::string_view name = pair.laws.ofPair(pair.a, pair.b).name;
+                           if (name != measuredSpecies) other = name;
+                       });
+    if (!other.empty()) return fmt::format("{} was not measured", other);
+    if (const double overlap = estimateOverlaps(scene).largest(); overlap > mostOverlapBySpeed)
+        return fmt::format("overlaps of about {:.2g} of a radius, more than {:g}, were not measured", overlap,
+                           mostOverlapBySpeed);
+    return {};
+}
+
+const MeasuredFigure& rowOf(WantedFigure figure) {
+    const auto* const row = std::ranges::find(measured, figure, &MeasuredFigure::figure);
+    if (row == measured.end())
+        throw InputError(
+            fmt::format("setStepFor: {} follows single collisions; take setStepFor(error), which computes "
+                        "them.",
+                        nameOf(figure)));
+    return *row;
+}
+
+}  // namespace
+
+StepForFigure findStepForFigure(Scene& scene, WantedFigure figure, double error) {
+    checkValue("setStepFor", "error", error, "", {1e-3, 0.2});
+    const MeasuredFigure& row = rowOf(figure);
+    scene.laws().mixAll();
+    const double advised = chosenTimeStep(scene);  // throws where nothing can meet
+    StepForFigure found{.figure = figure, .step = advised, .asked = error, .limit = scene.stabilityLimit()};
+    found.unknown = reasonOfDoubt(scene);
+    if (!found.isKnown()) return found;
+    const GrainSizes sizes = scene.grainSizes(scene.particleHandler.store());
+    const double inverse = stepOfFastestPair(scene.laws(), sizes, scene.wallHandler) / 0.9;  // s, 1 / omega
+    const double ofWalls =
+        limitOfMovedWalls(scene.laws(), sizes, scene.wallHandler, scene.getIntegrator());
+    for (std::size_t k = 0; k < measuredSteps.size() && row.errors[k] <= error; ++k) {
+        found.step = std::min(measuredSteps[k] * inverse, ofWalls);
+        found.measured = row.errors[k];
+    }
+    if (found.measured == 0)
+        found.unknown = fmt::format("runs have resolved {:.2g} of it and not less", row.errors[0]);
+    return found;
+}
+
+std::string StepForFigure::text() const {
+    const std::string_view name = nameOf(figure);
+    if (!isKnown())
+        return fmt::format(
+            "A step of {:.4g} s, by the stability limit and the shortest contact: of {} to {:g} no longer one "
+            "is known, because {}.",
+            step, name, asked, unknown);
+    std::string said = fmt::format(
+        "A step of {:.4g} s for {} to {:g}: beds, drums and hoppers kept to {:.2g} with it.", step, name,
+        asked, measured);
+    if (step <= limit) return said + fmt::format(" It is not above the stability limit ({:.4g} s).", limit);
+    return said + fmt::format(
+                      " It is {:.3g} times the stability limit ({:.4g} s): beds stayed at rest with it, which "
+                      "is measured and not proved.",
+                      step / limit, limit);
+}
+
+}  // namespace pendular
