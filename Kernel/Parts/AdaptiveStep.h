@@ -21,7 +21,7 @@ namespace pendular {
 /// same steps.
 class AdaptiveStep {
 public:
-    static constexpr std::size_t interval = 100;  // steps
+    static constexpr std::size_t interval = 50;  // steps
     static constexpr double growth = 1.3;        // at most, from one choice to the next
     static constexpr double margin = 1.5;        // on overlaps that are supposed: 10 % of Hertz's frequency
     static constexpr double memory = 0.9;  // the largest is supposed to be at least this of the last one

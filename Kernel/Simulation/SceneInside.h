@@ -132,7 +132,6 @@ public:
 
     Vector<double> lowestAtSetUp{0, 0, 0}, lengthAtSetUp{0, 0, 0};  // m, of the box
     std::optional<StepForError> stepForError;                       // by which the time step was chosen
-    std::optional<StepForFigure> stepForFigure;
     GrainSizes checkedSizes;
     double checkedRadii = 1;                       // the largest ratio of radii of the shapes (GrainShapes.h)
     double checkedStep = unset;                    // s
@@ -150,6 +149,7 @@ public:
     std::vector<ContactEvent> eventsOfAll;  // of the last step, where ranks have their own grains only
     std::optional<GrainSharing> sharing;    // none: the scene has all grains
     std::size_t listsAgreed = 0;            // of contacts, at which ranks have compared what they have
+    std::optional<StepForFigure> stepForFigure;
 
 private:
     [[nodiscard]] ContactLaws& laws() const { return *context.laws; }
