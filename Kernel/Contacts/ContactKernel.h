@@ -335,9 +335,9 @@ private:
         }
         return motion;
     }
-    /// Not gnu::cold, which g++ compiles for size: adaptive steps take this in every step. It gets copies, and
-    /// makes a geometry for what accelerations need of it, as one that is handed over costs all other schemes
-    /// stores to the stack.
+    /// Not gnu::cold, which g++ compiles for size: adaptive steps take this in every step. It gets copies,
+    /// and makes a geometry for what accelerations need of it, as one that is handed over costs all other
+    /// schemes stores to the stack.
     /// @param steps of that time
     template <class GeometryOf>
     [[gnu::noinline]] MovedSprings moveSprings(std::size_t number, const GeometryOf& geometryOf,

@@ -271,7 +271,8 @@ void ContactBounds::take(const ContactSystem& contacts, const WallHandler& walls
     }
 }
 
-/// Whether a contact counts only where its bodies are within the outlook's reach: most that are listed are not.
+/// Whether a contact counts only where its bodies are within the outlook's reach: most that are listed are
+/// not.
 static bool countsOnlyWithinReach(const ContactSystem& contacts, const Bucket& bucket, std::size_t contact) {
     return !contacts.laws().ofPair(bucket.species1, bucket.species2).resistsMotion &&
            !contacts.isBridged(contact);

@@ -42,7 +42,8 @@ namespace {
 void addStepForFigure(SummaryRows& rows, const StepForFigure& chosen) {
     rows.add("step for the bulk figure", nameOf(chosen.figure));
     rows.addNumber("error of the figure, asked", chosen.asked, "1");
-    if (chosen.isKnown()) rows.addNumber("error of the figure, measured in other scenes", chosen.measured, "1");
+    if (chosen.isKnown())
+        rows.addNumber("error of the figure, measured in other scenes", chosen.measured, "1");
     else rows.add("error of the figure", "not known: " + chosen.unknown);
 }
 

@@ -307,8 +307,9 @@ public:
     void setStepFor(double error, std::optional<double> speed = {});
     /// What setStepFor() found, if the time step is still its own.
     [[nodiscard]] std::optional<StepForError> getStepForError() const;
-    /// The longest time step with which a bulk figure is right to an error (1): findStepForFigure() says where
-    /// this was measured, and when it throws. At set-up, when species, integrator, walls and grains are there.
+    /// The longest time step with which a bulk figure is right to an error (1): findStepForFigure() says
+    /// where this was measured, and when it throws. At set-up, when species, integrator, walls and grains are
+    /// there.
     [[nodiscard]] StepForFigure stepForError(WantedFigure figure, double error);
     /// Takes the time step that stepForError() finds for a bulk figure. One above the stability limit is
     /// accepted; the summary says what was found.

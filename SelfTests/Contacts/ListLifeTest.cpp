@@ -101,9 +101,9 @@ TEST(ListLife, isThatOfTheApproachNotOfTheSpeed) {
     EXPECT_LT(static_cast<double>(scene.contacts().rebuildCount()), listsBySpeed / 3);
 }
 
-// The adaptive step asks at each choice whether the list reaches far enough. Grains that fly together are looked
-// at: all have come ten skins far, and none has approached another. One that then comes nearer to its neighbour
-// by half a skin leaves half of it.
+// The adaptive step asks at each choice whether the list reaches far enough. Grains that fly together are
+// looked at: all have come ten skins far, and none has approached another. One that then comes nearer to its
+// neighbour by half a skin leaves half of it.
 TEST(ListLife, reachesAsFarAsGrainsHaveNotApproached) {
     const double skin = 0.1 * r;
     Flow scene(6, {0, 0, 0}, 0);

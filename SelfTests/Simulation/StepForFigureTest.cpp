@@ -110,13 +110,15 @@ double inverseFrequency(double smallest) {
 double smallestOf(PouredBed<>& bed) { return bed.particleHandler.store().smallestRadius(); }
 
 TEST(StepForFigure, isThatOfTheTableOverTheHighestFrequency) {
-    // Dashpots make the period longer by a share of half the squared damping ratio, (ln 0.9 / pi)^2 / 2 = 6e-4.
+    // Dashpots make the period longer by a share of half the squared damping ratio, (ln 0.9 / pi)^2 / 2 =
+    // 6e-4.
     PouredBed elastic(5, 1, glass(0.9));
     const double unit = inverseFrequency(smallestOf(elastic));
     EXPECT_NEAR(elastic.stepForError(WantedFigure::SolidFraction, 0.05).step / unit, 1.32, 1.32 * 1e-3);
     // Strong dashpots bind: so many times the limit at which they are proved to be stable.
     PouredBed damped(5, 1, glass(0.2));
-    EXPECT_NEAR(damped.stepForError(WantedFigure::SolidFraction, 0.05).step / damped.stabilityLimit(), 6.2, 1e-9);
+    EXPECT_NEAR(damped.stepForError(WantedFigure::SolidFraction, 0.05).step / damped.stabilityLimit(), 6.2,
+                1e-9);
 }
 
 TEST(StepForFigure, isNeverAboveWhatAPairStandsAndGrowsWithTheError) {
@@ -208,8 +210,8 @@ TEST(StepForFigure, aBedAtRestStaysAtRest) {
     }
 }
 
-// The oracle is the same scene with an eighth of the step. Starts of 1000 grains differ by 0.7 % in the study,
-// so these 96 by some 2.3 %; three times that is asked.
+// The oracle is the same scene with an eighth of the step. Starts of 1000 grains differ by 0.7 % in the
+// study, so these 96 by some 2.3 %; three times that is asked.
 TEST(StepForFigure, keepsTheHeightOfABed) {
     const auto heightAt = [](double share) {
         PouredBed bed(6);

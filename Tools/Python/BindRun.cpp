@@ -40,7 +40,8 @@ std::string setStepFor(Scene& scene, double error, std::optional<double> speed,
         return scene.getStepForError()->text();
     }
     if (speed)
-        throw InputError("set_step_for: speed is of collisions and does not go with figure; give one of them.");
+        throw InputError(
+            "set_step_for: speed is of collisions and does not go with figure; give one of them.");
     std::ranges::replace(*figure, '_', '-');
     scene.setStepFor(wantedFigure(*figure), error);
     return scene.getStepForFigure()->text();
@@ -88,10 +89,12 @@ void bindTime(SceneClass& scene) {
             "The time step for an error (1) of collisions at a speed (m/s; by default the largest that the "
             "scene is about to have): collisions of two grains are computed with steps of many lengths, and "
             "the longest that is exact enough is taken. With a figure it is the longest with which this bulk "
-            "figure kept to the error in beds, drums and hoppers that were measured, often ten times as long. "
+            "figure kept to the error in beds, drums and hoppers that were measured, often ten times as "
+            "long. "
             "One above the stability limit is accepted; the summary says what was found. At set-up, when "
             "species, integrator, walls and grains are there.\n\n"
-            "error: from 0.0001 to 0.1, of a figure from 0.001 to 0.2; speed: m/s, of collisions only; figure: "
+            "error: from 0.0001 to 0.1, of a figure from 0.001 to 0.2; speed: m/s, of collisions only; "
+            "figure: "
             "a name as in softest_modulus(), \"solid_fraction\" (also for the flow from an outlet), "
             "\"friction\" (angles), \"contacts_at_rest\", \"contacts_in_flow\" or \"fluctuations\". Returns "
             "what was found, in a few sentences.")

@@ -42,8 +42,8 @@ void setUp(bulk::PeerScene& scene, const Options& o) {
     else if (o.integrator == "velocity-verlet") scene.setIntegrator(integrators::velocityVerlet);
     else if (o.integrator != "default")
         unknownName("integrator", o.integrator,
-                    std::vector<std::string_view>{"default", "at-limit", "advised", "for-error",
-                                                  "for-figure", "springs-in-step", "velocity-verlet", "adaptive"});
+                    std::vector<std::string_view>{"default", "at-limit", "advised", "for-error", "for-figure",
+                                                  "springs-in-step", "velocity-verlet", "adaptive"});
 }
 
 /// The figures of a run, and the time of the processor (s) that its steps have taken.
