@@ -318,16 +318,32 @@ private:
     struct MovedSprings {
         Vector<Pack> sliding, turning;
     };
-    /// Not gnu::cold, which g++ compiles for size: adaptive steps take this in every step. It makes its
-    /// geometry again, as one that is handed over costs all other schemes stores to the stack.
+    /// What it takes of the geometry.
+    struct SpringMotion {
+        Vector<Pack> normal, velocity, spinLever, spinDifference;
+        Pack lever, effectiveRadius;
+    };
+    static SpringMotion motionOf(const ContactGeometry<Pack>& g, const Pack& lever) {
+        const auto copy = [](const Vector<Pack>& v) {
+            return Vector<Pack>{copyOf(v.x), copyOf(v.y), copyOf(v.z)};
+        };
+        SpringMotion motion{copy(g.normal), copy(g.velocity), copy(g.spinLever),
+                            zero(),         copyOf(lever),    Pack(0)};
+        if constexpr (HasContactTorque<Friction>) {
+            motion.spinDifference = copy(g.spinDifference);
+            motion.effectiveRadius = copyOf(g.effectiveRadius);
+        }
+        return motion;
+    }
+    /// Not gnu::cold, which g++ compiles for size: adaptive steps take this in every step. It gets copies,
+    /// and makes a geometry for what accelerations need of it, as one that is handed over costs all other
+    /// schemes stores to the stack.
     /// @param steps of that time
     template <class GeometryOf>
-    [[gnu::noinline]] MovedSprings moveSprings(std::size_t number, const GeometryOf& geometryOf, Pack lever,
-                                               Pack steps) const {
+    [[gnu::noinline]] MovedSprings moveSprings(std::size_t number, const GeometryOf& geometryOf,
+                                               SpringMotion g, Pack steps) const {
         const auto geometry = geometryOf(number);
-        ContactGeometry<Pack> g = geometry.complete();
-        geometry.completeSpins(g);
-        const ContactAcceleration<Pack> a = geometry.accelerations(acceleration, lever);
+        const ContactAcceleration<Pack> a = geometry.accelerations(acceleration, g.lever);
         const Pack time = Pack(timeStep) * steps, half = Pack(-0.5) * time;
         const Vector<Pack> velocity =
             fma(half, a.velocity, g.velocity) + cross(fma(half, a.spinLever, g.spinLever), g.normal);
@@ -379,7 +395,7 @@ private:
                       .normalShift = normalShift,
                       .twist = Pack(0.5 * timeStep) * dot(g.spinSum, g.normal)});
         if (timing.springsInStep) [[unlikely]] {
-            MovedSprings moved = moveSprings(number, geometryOf, copyOf(normal.lever),
+            MovedSprings moved = moveSprings(number, geometryOf, motionOf(g, normal.lever),
                                              select(begins, normal.timing.before, Pack(1)));
             slip.timeBefore = slip.timeAfter = Pack(0);
             history.move(moved.sliding);

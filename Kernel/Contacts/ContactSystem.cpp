@@ -167,7 +167,7 @@ void ContactSystem::leaveCountsToFirstRank() {
 }
 
 void ContactSystem::listWithin(Grains& grains, double reach) {
-    if (!(reach > std::min(life.rest(), listBefore - unlisted))) return;
+    if (reach <= listBefore - unlisted && life.reaches(reach, grains)) return;
     listAgain(grains, true, reach);
     findWallPoints(grains, 0);
 }

@@ -50,18 +50,16 @@ public:
     /// Whether the list may lack bodies that act, or soon. It looks at all grains where rest() is spent.
     [[nodiscard]] bool isOver(const ParticleStore& grains) {
         if (rest() > 0) return false;
-        if (!drift.knows() || lastMove > skin) {
+        if (!look(grains)) {
             approached = unseen + approached;
             return true;
         }
-        const DriftWatch::Drift found = drift.drift(grains, nearWalls.flags);
-        approached = found.approach;
-        if (!nearWalls.flags.empty())
-            approached = std::max({approached, nearWalls.times * found.atWalls + wallsMoved,
-                                   nearWalls.times * found.farthest + wallsMoved - nearWalls.farther});
-        left = std::min(skin - approached, 2 * (drift.reach() - found.farthest));
-        unseen = 0;
         return !(left > worthALook * skin);
+    }
+    /// Whether the list has all bodies that are not farther apart than this (m). It looks at all grains where
+    /// rest() is less.
+    [[nodiscard]] bool reaches(double gap, const ParticleStore& grains) {
+        return gap <= rest() || (look(grains) && gap <= rest());
     }
     /// m, with which contacts were listed.
     [[nodiscard]] double width() const { return skin; }
@@ -76,6 +74,19 @@ public:
     }
 
 private:
+    /// Finds rest() by how grains have really come; false where that is not known.
+    bool look(const ParticleStore& grains) {
+        if (!drift.knows() || lastMove > skin) return false;
+        const DriftWatch::Drift found = drift.drift(grains, nearWalls.flags);
+        approached = found.approach;
+        if (!nearWalls.flags.empty())
+            approached = std::max({approached, nearWalls.times * found.atWalls + wallsMoved,
+                                   nearWalls.times * found.farthest + wallsMoved - nearWalls.farther});
+        left = std::min(skin - approached, 2 * (drift.reach() - found.farthest));
+        unseen = 0;
+        return true;
+    }
+
     static constexpr double worthALook = 0.1;  // of the skin
 
     double skin = 0, left = 0;  // m

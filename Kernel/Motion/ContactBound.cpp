@@ -271,6 +271,13 @@ void ContactBounds::take(const ContactSystem& contacts, const WallHandler& walls
     }
 }
 
+/// Whether a contact counts only where its bodies are within the outlook's reach: most that are listed are
+/// not.
+static bool countsOnlyWithinReach(const ContactSystem& contacts, const Bucket& bucket, std::size_t contact) {
+    return !contacts.laws().ofPair(bucket.species1, bucket.species2).resistsMotion &&
+           !contacts.isBridged(contact);
+}
+
 void ContactBounds::takePair(const ContactSystem& contacts, const ParticleStore& grains, const Bucket& bucket,
                              std::size_t contact, const ContactOutlook& outlook) {
     const std::uint32_t first = contacts.firstOf(contact), second = contacts.secondOf(contact);
@@ -278,6 +285,8 @@ void ContactBounds::takePair(const ContactSystem& contacts, const ParticleStore&
     if (!(one.inverseMass + two.inverseMass > 0)) return;
     const PeriodicBox& box = contacts.periodicBox();
     const Vector<double> apart = two.position - one.position, shift = box.nearest(apart);
+    const double reach = (one.radius + two.radius + outlook.reach) * (1 + 1e-12);  // rounded
+    if (countsOnlyWithinReach(contacts, bucket, contact) && squaredNorm(shift) > reach * reach) return;
     const double distance = norm(shift);
     Vector<double> velocity = one.velocity - two.velocity;
     if (box.imagesMove) velocity += box.velocityBetweenImages(apart, shift);

@@ -28,6 +28,7 @@
 #include "Kernel/Simulation/RunStatus.h"
 #include "Kernel/Simulation/Scene.h"
 #include "Kernel/Simulation/SceneCheck.h"
+#include "Kernel/Simulation/SoftestModulus.h"
 #include "Kernel/Simulation/SummaryFile.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Friction/MindlinRollingTorsion.h"
@@ -37,6 +38,14 @@
 
 namespace pendular {
 namespace {
+
+void addStepForFigure(SummaryRows& rows, const StepForFigure& chosen) {
+    rows.add("step for the bulk figure", nameOf(chosen.figure));
+    rows.addNumber("error of the figure, asked", chosen.asked, "1");
+    if (chosen.isKnown())
+        rows.addNumber("error of the figure, measured in other scenes", chosen.measured, "1");
+    else rows.add("error of the figure", "not known: " + chosen.unknown);
+}
 
 void addStepForError(SummaryRows& rows, const StepForError& chosen) {
     rows.addNumber("step for an error of", chosen.asked, "1");
@@ -63,6 +72,7 @@ void addRun(SummaryRows& rows, const Scene& scene, bool isComplete) {
                    "s");
     if (scene.acceptsUnstableTimeStep()) rows.add("step above the stability limit", "accepted");
     if (scene.getStepForError()) addStepForError(rows, *scene.getStepForError());
+    if (scene.getStepForFigure()) addStepForFigure(rows, *scene.getStepForFigure());
     rows.add("threads", scene.getNumberOfThreads());
     rows.add("grains", scene.particleHandler.getSize());
     if (const std::size_t bodies = scene.particleHandler.store().bodies.size(); bodies > 0)

@@ -167,6 +167,7 @@ void Scene::setIntegrator(const Integrator& scheme) {
     checkIntegrator(scheme);
     inside->integrator = scheme;
     inside->stepForError.reset();
+    inside->stepForFigure.reset();
 }
 
 void Scene::acceptUnstableTimeStep(bool accept) { inside->context.acceptsUnstableStep = accept; }

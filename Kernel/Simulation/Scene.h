@@ -30,6 +30,7 @@
 #include "Kernel/Simulation/Run.h"
 #include "Kernel/Simulation/StabilityAdvice.h"
 #include "Kernel/Simulation/StepForError.h"
+#include "Kernel/Simulation/StepForFigure.h"
 #include "Kernel/Step/StepPart.h"
 #include "Kernel/Walls/WallHandler.h"
 
@@ -306,6 +307,15 @@ public:
     void setStepFor(double error, std::optional<double> speed = {});
     /// What setStepFor() found, if the time step is still its own.
     [[nodiscard]] std::optional<StepForError> getStepForError() const;
+    /// The longest time step with which a bulk figure is right to an error (1): findStepForFigure() says
+    /// where this was measured, and when it throws. At set-up, when species, integrator, walls and grains are
+    /// there.
+    [[nodiscard]] StepForFigure stepForError(WantedFigure figure, double error);
+    /// Takes the time step that stepForError() finds for a bulk figure. One above the stability limit is
+    /// accepted; the summary says what was found.
+    void setStepFor(WantedFigure figure, double error);
+    /// What setStepFor() found for a bulk figure, if the time step is still its own.
+    [[nodiscard]] std::optional<StepForFigure> getStepForFigure() const;
     [[nodiscard]] const Integrator& getIntegrator() const;
     /// The integrator as the scene uses it: springsInStep where the friction lacks dashpots, or with the
     /// adaptive step.

@@ -149,6 +149,7 @@ public:
     std::vector<ContactEvent> eventsOfAll;  // of the last step, where ranks have their own grains only
     std::optional<GrainSharing> sharing;    // none: the scene has all grains
     std::size_t listsAgreed = 0;            // of contacts, at which ranks have compared what they have
+    std::optional<StepForFigure> stepForFigure;
 
 private:
     [[nodiscard]] ContactLaws& laws() const { return *context.laws; }

@@ -229,6 +229,8 @@ void Scene::Inside::warn() const {
 }
 
 void Scene::Inside::warnOfEnergyGainOfSprings() const {
+    const auto forFigure = scene.getStepForFigure();
+    if (forFigure && forFigure->isKnown()) return;  // beds have stayed at rest with it
     const double fewest =
         fewestStepsToDouble(laws(), checkedSizes, scene.wallHandler, contactScheme(context), stepLength());
     if (fewest > 1e7) return;

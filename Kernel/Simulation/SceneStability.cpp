@@ -99,4 +99,22 @@ std::optional<StepForError> Scene::getStepForError() const {
     return found && found->step == getTimeStep() ? found : std::nullopt;
 }
 
+StepForFigure Scene::stepForError(WantedFigure figure, double error) {
+    requireSetUp("time step for a bulk figure");
+    return findStepForFigure(*this, figure, error);
+}
+
+void Scene::setStepFor(WantedFigure figure, double error) {
+    const StepForFigure found = stepForError(figure, error);
+    setTimeStep(found.step);
+    acceptUnstableTimeStep(found.step > found.limit);
+    inside->stepForFigure = found;
+    logger(LogLevel::Info, "{}", found.text());
+}
+
+std::optional<StepForFigure> Scene::getStepForFigure() const {
+    const std::optional<StepForFigure>& found = inside->stepForFigure;
+    return found && found->step == getTimeStep() ? found : std::nullopt;
+}
+
 }  // namespace pendular

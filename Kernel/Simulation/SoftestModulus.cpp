@@ -146,8 +146,8 @@ WantedFigure wantedFigure(std::string_view name) {
         if (row.name == name) return row.figure;
     std::vector<std::string_view> names;
     for (const FigureRow& row : rows) names.push_back(row.name);
-    throw InputError(fmt::format("softestModulus: no figure is called \"{}\"; there are {}.", name,
-                                 fmt::join(names, ", ")));
+    throw InputError(
+        fmt::format("WantedFigure: no figure is called \"{}\"; there are {}.", name, fmt::join(names, ", ")));
 }
 
 SoftnessQuestion softnessOf(Scene& scene, double pressure) {

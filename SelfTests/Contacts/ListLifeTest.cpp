@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "Kernel/Boundaries/Outlet.h"
+#include "Kernel/Contacts/ListLife.h"
 #include "Kernel/Insertion/Inlet.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Friction/Mindlin.h"
@@ -98,6 +99,27 @@ TEST(ListLife, isThatOfTheApproachNotOfTheSpeed) {
     expectListed(scene, steps);
     const double listsBySpeed = 2 * Vec3D(2, 1, -0.5).norm() * dt * steps / (0.7 * r);
     EXPECT_LT(static_cast<double>(scene.contacts().rebuildCount()), listsBySpeed / 3);
+}
+
+// The adaptive step asks at each choice whether the list reaches far enough. Grains that fly together are
+// looked at: all have come ten skins far, and none has approached another. One that then comes nearer to its
+// neighbour by half a skin leaves half of it.
+TEST(ListLife, reachesAsFarAsGrainsHaveNotApproached) {
+    const double skin = 0.1 * r;
+    Flow scene(6, {0, 0, 0}, 0);
+    ParticleStore grains = scene.particleHandler.store();
+    ListLife life;
+    life.begin(grains, PeriodicBox(), 0, skin, true, {});
+    for (int k = 0; k < 20; ++k) {
+        for (TranslationRecord& grain : grains.translation) grain.position.x += 0.5 * skin;
+        life.move(skin, 0);
+    }
+    ASSERT_LT(life.rest(), 0);
+    EXPECT_TRUE(life.reaches(0.9 * skin, grains));
+    grains.translation[0].position.x += 0.5 * skin;
+    life.move(0.5 * skin, 0);
+    EXPECT_TRUE(life.reaches(0.4 * skin, grains));
+    EXPECT_FALSE(life.reaches(0.6 * skin, grains));
 }
 
 // Two heaps fly towards each other from afar: in neither does anything approach anything.

@@ -26,7 +26,7 @@ struct DifferentLaws : Simulation<Dry, Wet> {
         particleHandler.copyAndAddObject(grain);
         grain.setSpecies(wet), grain.setPosition({1.999e-3, 0, 0});
         particleHandler.copyAndAddObject(grain);
-        setTimeStep(shortestContactTime() / 30), setTimeMax(0.001);
+        setTimeStep(std::min(stabilityLimit(), shortestContactTime() / 25)), setTimeMax(0.001);
     }
 };
 // [end]

@@ -15,7 +15,7 @@ struct FillRegionScene : FirstDriver {
         const CylinderRegion silo({0, 0, 0}, {0, 0, 0.04}, 0.015);                  // ends and radius, m
         insert(sizes, silo, Amount::solidFraction(0.55), grain);                    // a dense start
         insert(sizes, SphereRegion({0, 0, 0.1}, 0.02), Amount::mass(5e-3), grain);  // kg
-        setTimeStep(shortestContactTime() / 30);                                    // of these sizes
+        setTimeStep(std::min(stabilityLimit(), shortestContactTime() / 25));        // of these sizes
         // [end]
         setTimeMax(2 * getTimeStep());
     }

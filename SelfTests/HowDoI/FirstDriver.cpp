@@ -21,7 +21,7 @@ struct FirstDriver : Simulation<HertzianViscoelasticMindlinIncrementalSpecies> {
         floor.setSpecies(material);
         floor.set({0, 0, -1}, {0, 0, 0});  // its normal points out, away from the grains
         wallHandler.copyAndAddObject(floor);
-        setTimeStep(shortestContactTime() / 30), setTimeMax(0.01);  // s
+        setTimeStep(std::min(stabilityLimit(), shortestContactTime() / 25)), setTimeMax(0.01);  // s
     }
 };
 int main(int argc, char** argv) {

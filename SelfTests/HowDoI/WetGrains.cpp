@@ -19,7 +19,7 @@ struct WetGrains : Simulation<HertzianViscoelasticMindlinIncrementalLiquidBridge
         grain.setPosition({1.999e-3, 0, 0});  // it touches the first one
         particleHandler.copyAndAddObject(grain);
         fmt::print("{}\n", bridgeAdvice(*this, 0.05));  // the cheapest law within 5 %
-        setTimeStep(shortestContactTime() / 30), setTimeMax(0.001);
+        setTimeStep(std::min(stabilityLimit(), shortestContactTime() / 25)), setTimeMax(0.001);
     }
 };
 // [end]

@@ -164,6 +164,9 @@ SENTENCES = {
     "no solid": (lambda s: s.add_solid(s.glass, [[0, 0, 1]], [[0, 0, 50]], centre=(0, 0, 0), radius=1), None),
     "a step for an error in a run": (lambda s: (s.run(steps=1), s.set_step_for(0.01)),
                                      "Simulation: the time step for an error can only be set before the run starts."),
+    "a step for collisions and for a figure": (
+        lambda s: s.set_step_for(0.02, speed=1, figure="friction"),
+        "set_step_for: speed is of collisions and does not go with figure; give one of them."),
     "a row of grains": (lambda s: s.add_grains(s.glass, [[0, 0, 9], [0, float("nan"), 8]], 1e-3), None),
     "no name of a library": (lambda s: pendular.load_species(""), "load_species() needs the name of a file; it is ''."),
     "two materials without a pair": (lambda s: (s.add_grains(s.add_species("LinearViscoelastic", **MATERIAL), [[0, 0, 9]], 1e-3),

@@ -267,6 +267,18 @@ def test_settings_are_read_again():
         tower().domain
 
 
+def test_the_step_for_a_figure():
+    """The kernel's tests have its length; here the figure's name, and what is returned."""
+    scene = tower()
+    usual = scene.choose_time_step()
+    said = scene.set_step_for(0.05, figure="solid_fraction")
+    assert "for solid-fraction to 0.05" in said and scene.time_step > usual
+    with pytest.raises(pendular.InputError, match="no figure is called"):
+        scene.set_step_for(0.05, figure="angles")
+    with pytest.raises(pendular.InputError, match="single collisions"):
+        scene.set_step_for(0.05, figure="contact_time")
+
+
 def test_the_adaptive_step_tells_what_it_chose():
     scene = tower()
     scene.time_step = scene.stability_limit()

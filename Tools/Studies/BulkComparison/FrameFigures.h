@@ -68,7 +68,10 @@ public:
         energies.push_back({time, energy});
         left.push_back({time, massAtStart - mass});
         if (isLost || time < scene.measureFrom - 0.5 * scene.interval) return;
-        if (scene.name == "bed") addBed(grains);
+        if (scene.name == "bed") {
+            addBed(grains);
+            sum("agitation", energy / (massAtStart * PeerMaterial::gravity * 2 * PeerMaterial::radius));
+        }
         if (scene.name == "drum") addDrum(grains);
         if (!scene.drains) sum("kinetic_energy_J", energy);
         if (scene.name == "impact") sum("coordination", overlapsOf(scene, grains).coordination);
@@ -86,7 +89,8 @@ public:
             if (at != sums.end()) found.emplace_back(name, at->second.first / at->second.second);
         };
         for (const char* name :
-             {"coordination", "solid_fraction", "mean_stress_Pa", "centre_angle_deg", "surface_angle_deg"})
+             {"coordination", "solid_fraction", "mean_stress_Pa", "agitation", "centre_angle_deg",
+              "surface_angle_deg"})
             mean(name);
         if (scene.name == "bed") found.emplace_back("settling_time_s", settlingTime());
         if (scene.name != "bed") mean("kinetic_energy_J");

@@ -5,6 +5,7 @@
 #include "Drivers/Shared/ProcessorTime.h"
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Simulation/Program.h"
+#include "Kernel/Simulation/SoftestModulus.h"
 #include "Tools/Studies/BulkComparison/PeerFiles.h"
 #include "Tools/Studies/BulkComparison/PeerScene.h"
 
@@ -17,6 +18,7 @@ struct Options {
     std::uint64_t seed = 1;
     double step = 0.1;            // of Rayleigh's time; a share, or the error of collisions
     std::optional<double> speed;  // m/s, of collisions for the error
+    std::string figure;           // by whose error the step is chosen
     double seconds = 0;           // of the processor, that another code has taken
 };
 
@@ -34,15 +36,13 @@ void setUp(bulk::PeerScene& scene, const Options& o) {
         return;
     }
     scene.acceptUnstableTimeStep();
-    if (o.integrator == "for-error") {
-        scene.setStepFor(o.step, o.speed);
-        return;
-    }
+    if (o.integrator == "for-error") return scene.setStepFor(o.step, o.speed);
+    if (o.integrator == "for-figure") return scene.setStepFor(wantedFigure(o.figure), o.step);
     if (o.integrator == "springs-in-step") scene.setIntegrator(integrators::springsInStep);
     else if (o.integrator == "velocity-verlet") scene.setIntegrator(integrators::velocityVerlet);
     else if (o.integrator != "default")
         unknownName("integrator", o.integrator,
-                    std::vector<std::string_view>{"default", "at-limit", "advised", "for-error",
+                    std::vector<std::string_view>{"default", "at-limit", "advised", "for-error", "for-figure",
                                                   "springs-in-step", "velocity-verlet", "adaptive"});
 }
 
@@ -107,13 +107,15 @@ int main(int argc, char** argv) {
     app.add_option(
         "--integrator", o.integrator,
         "default, at-limit (the default, by its stability limit), advised (by the smaller of that and "
-        "a contact's time / 25), for-error (setStepFor()), springs-in-step, velocity-verlet or "
+        "a contact's time / 25), for-error (setStepFor()), for-figure, springs-in-step, velocity-verlet or "
         "adaptive");
     app.add_option("--step", o.step,
                    "over Rayleigh's time of the largest grain; of at-limit, advised and adaptive: the share; "
-                   "of for-error: the error");
+                   "of for-error and for-figure: the error");
+    app.add_option("--figure", o.figure, "of for-figure: as of softest-modulus");
     app.add_option("--speed-m-s", o.speed, "of for-error: at which grains meet; as estimated if not given");
     app.add_option("--modulus-Pa", bulk::PeerMaterial::elasticModulus, "Young's; the others have 5e6");
+    app.add_option("--restitution", bulk::PeerMaterial::restitution, "the others have 0.5");
     auto* data = app.add_option("--data", o.data,
                                 "write the start to this file, for read_data of the others, and print "
                                 "Rayleigh's time, the end, the time between frames (s) and the grains");
@@ -124,6 +126,7 @@ int main(int argc, char** argv) {
     if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] {
         checkValue("bulk-figures", "step", o.step, "", positive);
+        checkValue("bulk-figures", "restitution", bulk::PeerMaterial::restitution, "", {0, 1, false, true});
         checkValue("bulk-figures", "modulus", bulk::PeerMaterial::elasticModulus, "Pa", positive);
         run(o);
         return 0;
