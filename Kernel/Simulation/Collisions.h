@@ -24,7 +24,7 @@ struct Collision {
     double spin1 = 0, spin2 = 0;       // rad/s
     double stepsInContact = 200;       // at least, by the stiffest contact that is sound
     std::optional<double> timeStep{};  // s, in the place of these steps
-    bool keepsEnergies = false;        // the energy ledger: three times the time
+    bool keepsEnergies = false;        // the energy ledger: twice the time
 };
 
 /// What a collision leaves. Normal and tangential directions are those of the first touch.
@@ -61,8 +61,8 @@ struct CollisionOutcome {
 
 /// Computes a collision of bodies of a material.
 template <class S>
-    requires(!std::derived_from<S, ContactLaws>)
-[[nodiscard]] CollisionOutcome collide(const S& material, const Collision& collision) {
+requires(!std::derived_from<S, ContactLaws>) [[nodiscard]] CollisionOutcome
+    collide(const S& material, const Collision& collision) {
     SpeciesHandler<S> species;
     species.copyAndAddObject(material);
     const auto laws = makeSpeciesLaws(species);

@@ -26,7 +26,7 @@ def collisions(species: str, *, radius: _kernel.ArrayLike, normal_velocity: _ker
     radius, radius2: m, of the two grains; radius2 = inf is a plane wall, and without it the grains are equal. normal_velocity: m/s, of
     approach; tangential_velocity: m/s, of grain 1 relative to the other body; spin1, spin2: rad/s.
     steps_in_contact: steps in the shortest contact that is sound, so that one at a low speed has more; time_step: s, instead.
-    energies: also the energy ledger, which takes three times as long. threads: all processors without it.
+    energies: also the energy ledger, which takes twice as long. threads: all processors without it.
 
     Returns arrays by their names: parted; end ("parted", "drawn back": a bridge or an attraction holds the grains, or "creeps":
     overdamped, or they sinter); restitution (0 unless they part); tangential_restitution (of the contact points, positive where their
