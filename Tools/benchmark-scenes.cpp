@@ -245,6 +245,7 @@ template <class SceneType>
 void measureFlow(SceneType scene, const Options& options, double memoryBefore) {
     scene.setTimeStep(bulk::flowStep());
     scene.acceptUnstableTimeStep();
+    scene.acceptOverlaps(bulk::largestFlowOverlap);
     measure(scene, options, memoryBefore);
     if constexpr (SceneType::isWet) fmt::print(stderr, "{} bridges\n", scene.contacts().counts().bridged);
 }

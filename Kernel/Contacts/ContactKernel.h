@@ -133,6 +133,13 @@ public:
                     capillaryNumbers.note(bits(bridged), number);
             }
         }
+        if constexpr (bridgesPullAlone && !ShapedGeometry<Geometry>)
+            if (none(touching) && state.touching == 0 && !ledger) {
+                writeRecords(block, geometry, g.normal, max(g.overlap, Pack(0)), Pack(0) - adhesive, zero());
+                state.bridged = bits(bridged);
+                state.closing = 0;
+                return true;
+            }
         LastForces last = loadLastForces(block, geometry);
         Pack pull = 0;  // N, attraction of the normal law
         if constexpr (PullsInContact<Normal>) {
@@ -186,6 +193,12 @@ public:
     }
 
 private:
+    /// Between bodies that have a bridge and do not touch nothing acts but its pull, which depends on their
+    /// distance alone; what contacts of a block remember is zero while none of them touches.
+    static constexpr bool bridgesPullAlone = Adhesion::acts && resists == BridgeResists::Nothing &&
+                                             !JumpsAtEnds<Adhesion> && !PullsInContact<Normal> &&
+                                             !Creeps<Normal> && !S::hasContactTorque;
+
     /// The forces of the last step on eight contacts. The tangential force in today's tangential plane is
     /// (n x F) x n.
     struct LastForces {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 
@@ -53,10 +55,12 @@ TEST(BenchmarkProgram, printsARowOfItsColumns) {
     EXPECT_EQ(of("state_hash").size(), 16u);
 }
 
-/// Grains of soft material in flow, from a start that is kept as a file for LIGGGHTS.
-TEST(BenchmarkProgram, hasADrumAndAHopperInFlow) {
+/// Grains of soft material in flow, from a start that is kept as a file for LIGGGHTS; wet ones begin with the
+/// dry ones.
+TEST(BenchmarkProgram, hasFlowsDryAndWet) {
     const support::TestFolder folder;
-    for (const std::string scene : {"flowing-drum", "flowing-hopper"}) {
+    for (const std::string scene :
+         {"flowing-drum", "flowing-hopper", "flowing-mixer", "wet-flowing-drum", "wet-flowing-mixer"}) {
         std::string first;
         for (const char* again : {"", " --threads 2"}) {
             const support::ProgramResult run =
@@ -71,9 +75,39 @@ TEST(BenchmarkProgram, hasADrumAndAHopperInFlow) {
             EXPECT_GT(std::stod(value.at(11)), 300 * 0.5 * 1e-5 * 0.02 * 0.02);
             if (first.empty()) first = value.at(12);
             EXPECT_EQ(value.at(12), first);  // the hash of the state
+            const bool isWet = scene.starts_with("wet-");
+            EXPECT_EQ(value.at(1).find("LiquidBridge") != std::string::npos, isWet);
+            const std::size_t bridges = run.output.find(" bridges\n");
+            ASSERT_EQ(bridges != std::string::npos, isWet);
+            // Those that touch have a bridge (but for walls'), and so have some that touched: each grain has
+            // one at least.
+            if (isWet) {
+                const std::size_t number = run.output.rfind('\n', bridges) + 1;
+                EXPECT_GT(std::stod(run.output.substr(number)), 0.5 * std::stod(value.at(2)));
+            }
         }
         EXPECT_TRUE(std::filesystem::exists(folder.path() / (scene + "-300.data")));
     }
+}
+
+/// What LIGGGHTS and LAMMPS read of a flow: grains, numbers and meshes.
+TEST(BenchmarkProgram, writesTheFilesOfAFlowForOtherCodes) {
+    const support::TestFolder folder;
+    const std::filesystem::path files = folder.path() / "files";
+    const support::ProgramResult run =
+        benchmark("--scene flowing-mixer --particles 300 --states '' --peer-files " + files.string());
+    ASSERT_EQ(run.exitCode, 0) << run.output;
+    const auto textOf = [&](const char* name) {
+        std::ifstream file(files / name);
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    EXPECT_NE(textOf("start").find("4 atom types"), std::string::npos);
+    const std::string variables = textOf("variables");
+    for (const char* line :
+         {"variable boundary index \"f f p \"", "variable meshed index 1", "variable drum index 0"})
+        EXPECT_NE(variables.find(line), std::string::npos) << variables;
+    for (const char* mesh : {"tube.stl", "rotor.stl"})
+        EXPECT_NE(textOf(mesh).find("vertex"), std::string::npos);
 }
 
 TEST(BenchmarkProgram, refusesWithOneSentence) {
@@ -89,6 +123,7 @@ TEST(BenchmarkProgram, refusesWithOneSentence) {
     expectRefusal("--scene flowing-drum --species LinearViscoelasticSpecies", "has its own species");
     expectRefusal("--scene flowing-hopper --shear 5", "takes no shear");
     expectRefusal("--scene flowing-hopper --grains", "prints no grains");
+    expectRefusal("--scene bed --peer-files files", "has no files for other codes");
     expectRefusal("--scene bed --positions /nowhere/grains.txt", "/nowhere/grains.txt");
     expectRefusal("--scene clumps --clumps 2", "needs positions");
     expectRefusal("--scene gas --clumps 2", "takes no clumps");

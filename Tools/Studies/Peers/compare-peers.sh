@@ -133,7 +133,7 @@ run_liggghts() {  # scene, model
 run_flow() {  # scene, grains
     local scene=$1 steps warm wet=0 codes=(pendular) skin best start folder=$work/flow atoms before
     before=$(wc -l <"$raw")
-    steps=$(awk -v n="$2" 'BEGIN { s = int(4e6 / n); print (s > 4000 ? 4000 : s < 200 ? 200 : s) }')
+    steps=$(awk -v n="$2" 'BEGIN { s = int(12e6 / n); print (s > 4000 ? 4000 : s < 200 ? 200 : s) }')
     warm=$((steps / 2 > 1000 ? 1000 : steps / 2 < 100 ? 100 : steps / 2))
     local options=(--scene "$scene" --states "$states")
     (($2 == 1000)) || options+=(--particles "$2")

@@ -6,7 +6,7 @@
 
 #include "SelfTests/Support/TestFolder.h"
 #include "Tools/Studies/AccuracyVersusCost/BulkFigures.h"
-#include "Tools/Studies/BulkComparison/PeerFiles.h"
+#include "Tools/Studies/BulkComparison/FlowScene.h"
 
 namespace pendular::bulk::bulkComparisonTest {
 namespace {
@@ -104,6 +104,83 @@ TEST(BulkComparison, readsTheStartAndTheFramesThatItWrites) {
     readPeerFrames(frames, scene, 1e-5, figures);
     EXPECT_FALSE(figures.survived());
     EXPECT_THROW(readPeerData(frames, read), InputError);
+}
+
+/// How far the corners of triangles are from the nearest of another mesh, at most (m).
+double distanceOfCorners(const std::vector<Triangle>& from, const std::vector<Triangle>& to) {
+    double farthest = 0;
+    for (const Triangle& triangle : from)
+        for (const Vector<double>& corner : triangle) {
+            double nearest = infinity;
+            for (const Triangle& other : to)
+                for (const Vector<double>& at : other) nearest = std::min(nearest, norm(at - corner));
+            farthest = std::max(farthest, nearest);
+        }
+    return farthest;
+}
+
+/// m, of the nearest of some points of triangles.
+double distanceOf(const std::vector<Triangle>& triangles, const Vector<double>& from) {
+    double nearest = infinity;
+    constexpr int pieces = 5;
+    for (const Triangle& t : triangles)
+        for (int i = 0; i <= pieces; ++i)
+            for (int k = 0; k <= pieces - i; ++k) {
+                const double a = 1.0 * i / pieces, b = 1.0 * k / pieces;
+                nearest = std::min(nearest, norm((1 - a - b) * t[0] + a * t[1] + b * t[2] - from));
+            }
+    return nearest;
+}
+
+TEST(BulkComparison, theMixerHasRoomForItsGrainsAndFitsItsPeriod) {
+    UniformRandom random(1);
+    const BulkScene scene = detail::mixer(random, 0.3);
+    EXPECT_GT(scene.grains.size(), 200u);
+    for (const PeerMesh& mesh : scene.meshes)
+        for (std::size_t k = 0; k < scene.grains.size(); k += 5) {
+            const PeerGrain& grain = scene.grains[k];
+            EXPECT_GT(distanceOf(mesh.triangles, toVector(grain.position)), grain.radius);
+        }
+    const Screw screw{.tube = 0.02, .shaft = 5e-3, .edge = 0.0156, .length = 0.036, .pitch = 0.018};
+    for (const Triangle& triangle : screw.rotor())
+        for (const Vector<double>& corner : triangle)
+            EXPECT_LT(std::hypot(corner.x, corner.y), screw.edge * (1 + 1e-14));
+    std::vector<Triangle> low, high;  // those at the faces
+    for (const Triangle& triangle : screw.rotor())
+        for (const Vector<double>& corner : triangle) {
+            if (corner.z == 0) low.push_back({corner, corner, corner});
+            if (corner.z == screw.length) {
+                const Vector<double> behind{corner.x, corner.y, 0};
+                high.push_back({behind, behind, behind});
+            }
+        }
+    ASSERT_FALSE(high.empty());
+    EXPECT_EQ(distanceOfCorners(low, high), 0);
+    EXPECT_EQ(distanceOfCorners(high, low), 0);
+}
+
+// Copies side by side: the grains of each, and meshes that meet exactly.
+TEST(BulkComparison, aLargeFlowIsCopiesOfASmallOne) {
+    UniformRandom random(1);
+    const BulkScene one = detail::mixer(random, 0.3), all = copiesOf(one, 3);
+    const double period = one.highest.z() - one.lowest.z();
+    EXPECT_DOUBLE_EQ(all.highest.z(), 3 * period);
+    ASSERT_EQ(all.grains.size(), 3 * one.grains.size());
+    for (std::size_t k = 0; k < one.grains.size(); ++k) {
+        const PeerGrain& copy = all.grains[2 * one.grains.size() + k];
+        EXPECT_LT((copy.position - one.grains[k].position - Vec3D(0, 0, 2 * period)).norm(), 1e-15);
+        EXPECT_EQ(copy.velocity, one.grains[k].velocity);
+        EXPECT_EQ(copy.radius, one.grains[k].radius);
+    }
+    std::vector<Triangle> before, behind;  // at the face between the first and the second copy
+    const std::vector<Triangle>& rotor = all.meshes[1].triangles;
+    const std::size_t ofOne = one.meshes[1].triangles.size();
+    ASSERT_EQ(rotor.size(), 3 * ofOne);
+    for (std::size_t k = 0; k < 2 * ofOne; ++k)
+        for (const Vector<double>& corner : rotor[k])
+            if (corner.z == period) (k < ofOne ? before : behind).push_back({corner, corner, corner});
+    ASSERT_FALSE(before.empty());
+    EXPECT_EQ(distanceOfCorners(before, behind), 0);
 }
 
 }  // namespace
