@@ -186,11 +186,13 @@ void BondPart::shareAccelerations(StepContext& step) {
 }
 
 std::vector<bool> BondPart::areThere(const StepContext& step) const {
-    std::vector<std::uint32_t> own;
+    const AllRanks& ranks = step.contacts.ranks();
+    std::vector<std::uint32_t> numbers;
     for (std::uint32_t k = 0; k < joined.size(); ++k)
-        if (joined[k].place != PlaceIndex::none) own.push_back(k);
+        if (joined[k].place != PlaceIndex::none) numbers.push_back(k);
+    if (ranks.areSeveral()) numbers = ranks.gather(numbers);
     std::vector<bool> all(joined.size());
-    for (const std::uint32_t k : step.contacts.ranks().gather(own)) all[k] = true;
+    for (const std::uint32_t k : numbers) all[k] = true;
     return all;
 }
 
