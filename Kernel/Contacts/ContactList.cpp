@@ -57,7 +57,7 @@ std::size_t ContactList::rebuild(Grains& grains, ContactStore& store, const Reme
     fill(grains, store);
     const std::size_t recalled =
         ContactRecall(laws, grains, formerPlace, threads, keepsBridges).into(store, old, apart);
-    store.listSides(grains.identity, threads);
+    store.beginSides(grains.identity, threads);
     return recalled;
 }
 
@@ -190,7 +190,7 @@ void ContactList::sortPairs(Group& g) const {
     const PairOrder order(skin + reachOfAll);
     inParts(
         (g.contacts.size() + stretch - 1) / stretch, threads, [&](int, std::size_t first, std::size_t last) {
-            std::vector<ListedPair> buffer;
+            PairOrder::Buffer buffer;
             for (std::size_t begin = first * stretch; begin < std::min(last * stretch, g.contacts.size());
                  begin += stretch)
                 order.sort({g.contacts.data() + begin, std::min(stretch, g.contacts.size() - begin)}, buffer);
