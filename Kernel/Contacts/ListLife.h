@@ -29,11 +29,11 @@ public:
     /// @param range m, at which bodies are listed beside the skin (m)
     /// @param watches how grains come
     void begin(const ParticleStore& grains, const PeriodicBox& box, double range, double listSkin,
-               bool watches, NearWalls grainsNearWalls) {
+               bool watches, NearWalls grainsNearWalls, int threads = 1) {
         skin = left = listSkin;
         unseen = wallsMoved = approached = 0;
         nearWalls = std::move(grainsNearWalls);
-        if (watches) drift.begin(grains, box, range + skin);
+        if (watches) drift.begin(grains, box, range + skin, threads);
         else drift.end();
     }
 
@@ -48,13 +48,13 @@ public:
     [[nodiscard]] double rest() const { return left - unseen; }
 
     /// Whether the list may lack bodies that act, or soon. It looks at all grains where rest() is spent.
-    [[nodiscard]] bool isOver(const ParticleStore& grains) {
+    [[nodiscard]] bool isOver(const ParticleStore& grains, int threads = 1) {
         if (rest() > 0) return false;
         if (!drift.knows() || lastMove > skin) {
             approached = unseen + approached;
             return true;
         }
-        const DriftWatch::Drift found = drift.drift(grains, nearWalls.flags);
+        const DriftWatch::Drift found = drift.drift(grains, nearWalls.flags, threads);
         approached = found.approach;
         if (!nearWalls.flags.empty())
             approached = std::max({approached, nearWalls.times * found.atWalls + wallsMoved,
