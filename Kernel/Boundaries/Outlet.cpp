@@ -165,6 +165,15 @@ std::vector<double> OutletHandler::letOutOfRanks(ParticleHandler& particles, Bod
     return contacts.finishRemovals(particles.store());
 }
 
+/// Whether eight grains, one behind the other, are all on the near side of a plane.
+static bool areWithinOutletPlane(const Vector<double>& normal, double offset,
+                                 const TranslationRecord* grains) {
+    static constexpr std::array<std::uint32_t, Pack::lanes> each{0, 1, 2, 3, 4, 5, 6, 7};
+    auto [x, y, z, radius] = loadRecords<4>(reinterpret_cast<const double*>(grains), 8, each.data());
+    return none(dot(Vector<Pack>{Pack(normal.x), Pack(normal.y), Pack(normal.z)}, Vector<Pack>{x, y, z}) >
+                Pack(offset));
+}
+
 void OutletHandler::findGrains(const ParticleStore& grains, std::span<const std::uint32_t> tooYoung,
                                int threads) {
     // Divided as at the end of a step: a thread then finds its own grains in the cache of its core.
@@ -174,7 +183,7 @@ void OutletHandler::findGrains(const ParticleStore& grains, std::span<const std:
     inParts(
         grains.ownSize(), threads,
         [&](int part, std::size_t begin, std::size_t end) {
-            for (std::size_t k = begin; k < end; ++k)
+            const auto look = [&](std::size_t k) {
                 for (std::uint32_t o = 0; o < outlets.size(); ++o) {
                     const TranslationRecord& grain = grains.translation[k];
                     // The place first: it lets nearly all stay, and what else is asked lies in other columns.
@@ -185,6 +194,16 @@ void OutletHandler::findGrains(const ParticleStore& grains, std::span<const std:
                     found[static_cast<std::size_t>(part)].push_back({grains.identity[k], o});
                     if (!outlets[o].condition) break;
                 }
+            };
+            for (std::size_t k = begin; k < end; k += Pack::lanes) {
+                const std::size_t last = std::min<std::size_t>(k + Pack::lanes, end);
+                const auto takesNone = [&](const Outlet& outlet) {
+                    return !outlet.region &&
+                           areWithinOutletPlane(outlet.normal, outlet.offset, &grains.translation[k]);
+                };
+                if (last - k == Pack::lanes && std::ranges::all_of(outlets, takesNone)) continue;
+                for (std::size_t at = k; at < last; ++at) look(at);
+            }
         },
         worthAThread);
     for (const auto& own : found) leaving.insert(leaving.end(), own.begin(), own.end());

@@ -207,9 +207,9 @@ private:
         const std::size_t listed = memory.sides.grainCount();  // others came after the list
         for (std::size_t k = begin; k < end; ++k) {
             if (k + ahead < end && places[k + ahead] < listed)
-                prefetch(memory.sides.of(places[k + ahead]).data(), 64);
+                prefetch(memory.sidesOf(places[k + ahead]).data(), 64);
             if (places[k] >= listed) continue;
-            for (const std::uint32_t side : memory.sides.of(places[k])) {
+            for (const std::uint32_t side : memory.sidesOf(places[k])) {
                 const bool isFirst = side % 2 == 0, acts = memory.acts(memory.contactAt(side / 2));
                 give(isFirst, side / 2, acts, order);
                 order += static_cast<std::size_t>(isFirst & acts);

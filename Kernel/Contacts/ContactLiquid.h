@@ -111,7 +111,7 @@ struct ListedLiquid {
     template <class Function>
     void forEachContactOf(Number grain, Function&& function) const {
         if (grain >= store.sides.grainCount()) return;
-        for (const std::uint32_t side : store.sides.of(grain)) {
+        for (const std::uint32_t side : store.sidesOf(grain)) {
             const std::uint32_t contact = store.contactAt(side / 2);
             if ((store.acts(contact) || findFilmContact(contact)) && moves(contact)) function(contact);
         }

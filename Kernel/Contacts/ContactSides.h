@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <numeric>
 #include <span>
@@ -19,8 +20,30 @@ namespace pendular {
 /// the contact, in the order of the partners: other grains by their identity, then walls by number and part.
 /// So the sum reads records only, and its order, and with it every bit, does not depend on how contacts are
 /// listed or where grains are kept.
+///
+/// In most steps nobody asks: the kernel has summed the forces. The sides of a new list are therefore made
+/// when the first one asks for them (ContactStore::sidesOf()), or at once if somebody has asked for those of
+/// the last one. Only then does a contact that gets memory change them.
 class ContactSides {
 public:
+    /// There is a new list. Whoever made it marks the grains that have contacts with memory.
+    /// @param identities of the grain at each place
+    void begin(const std::vector<std::uint32_t>& identities) {
+        *this = ContactSides();
+        identity = identities;
+        hasMemory.assign(identities.size(), 0);
+    }
+    [[nodiscard]] bool areMade() const { return made; }
+    /// Whether somebody has asked for the sides of this list; they are made, then.
+    [[nodiscard]] bool wereAskedFor() const {
+        return std::atomic_ref(asked).load(std::memory_order_acquire) != 0;
+    }
+    void noteAsked() { std::atomic_ref(asked).store(1, std::memory_order_release); }
+    /// The identity of the grain at a place when the list was made.
+    [[nodiscard]] const std::vector<std::uint32_t>& identities() const { return identity; }
+    /// A contact of the grain has memory.
+    void markMemory(std::uint32_t grain) { hasMemory[grain] = 1; }
+
     /// The sides of the contacts with memory of the grain at a place, 2 x place in the memory + (0 or 1).
     [[nodiscard]] std::span<const std::uint32_t> of(std::size_t grain) const {
         return {sides.data() + begins[grain], sides.data() + ends[grain]};
@@ -32,16 +55,17 @@ public:
         return {sides.data() + ends[grain], sides.data() + begins[grain + 1]};
     }
 
-    [[nodiscard]] std::size_t grainCount() const { return ends.size(); }
+    /// How many places grains have had since the list was made.
+    [[nodiscard]] std::size_t grainCount() const { return hasMemory.size(); }
 
-    /// Lists all sides again.
+    /// Lists all sides.
     /// @param forEachSideIn (block, function) calls function(grain, 2 x contact + (0 or 1)) for those of a
     /// block of contacts
     /// @param slotOf the place of a contact in the memory; less than a block's for contacts without
     /// @param keyOf (contact, 0 or 1): the partner, as a number by which sides are ordered
     template <class ForEachSideIn, class SlotOf, class KeyOf>
-    void list(std::size_t grainCount, std::size_t blockCount, int threads, ForEachSideIn&& forEachSideIn,
-              SlotOf&& slotOf, KeyOf&& keyOf) {
+    void list(std::size_t blockCount, int threads, ForEachSideIn&& forEachSideIn, SlotOf&& slotOf,
+              KeyOf&& keyOf) {
         const auto forEachSide = [&](auto&& function) {
             inParts(
                 blockCount, threads,
@@ -51,7 +75,8 @@ public:
                 worthAThread);
         };
         const bool isShared = threads > 1;
-        begins.assign(grainCount + 1, 0);
+        const std::size_t grains = grainCount();
+        begins.assign(grains + 1, 0);
         forEachSide([&](std::uint32_t grain, std::uint32_t) { countUp(begins[grain + 1], isShared); });
         std::partial_sum(begins.begin(), begins.end(), begins.begin());
         sides.resize(begins.back());
@@ -59,23 +84,26 @@ public:
         forEachSide(
             [&](std::uint32_t grain, std::uint32_t side) { sides[countUp(ends[grain], isShared)] = side; });
         inParts(
-            grainCount, threads,
+            grains, threads,
             [&](int, std::size_t first, std::size_t end) {
                 std::vector<Keyed> keyed;
                 for (std::size_t grain = first; grain < end; ++grain) order(grain, keyed, slotOf, keyOf);
             },
             worthAThread);
+        made = true;
     }
 
     /// Grains have come to the end of the store, which has so many places now; they have no contacts yet.
     void addGrains(std::size_t places) {
-        if (places <= ends.size()) return;
+        if (places <= grainCount()) return;
+        hasMemory.resize(places, 0);
+        if (!areMade()) return;
         const auto last = static_cast<std::uint32_t>(sides.size());
         begins.resize(places + 1, last);
         ends.resize(places, last);
     }
 
-    /// The contact of a grain has got memory.
+    /// The contact of a grain has got memory, where the sides are made.
     /// @param contactOf the contact at a place in the memory
     /// @param isListed of a contact: not of one that ended because a grain was removed, whose places mean
     /// nothing any more
@@ -96,13 +124,13 @@ public:
 
     /// Which grains have contacts with memory, until contacts are listed again.
     struct Awake {
-        const std::uint32_t *begins, *ends;
+        const std::uint8_t* hasMemory;
 
-        [[nodiscard]] bool any(std::size_t grain) const { return begins[grain] != ends[grain]; }
+        [[nodiscard]] bool any(std::size_t grain) const { return hasMemory[grain] != 0; }
     };
-    [[nodiscard]] Awake awake() const { return {begins.data(), ends.data()}; }
+    [[nodiscard]] Awake awake() const { return {hasMemory.data()}; }
 
-    [[nodiscard]] std::size_t bytes() const { return bytesOf(begins, ends, sides); }
+    [[nodiscard]] std::size_t bytes() const { return bytesOf(begins, ends, sides, hasMemory, identity); }
 
 private:
     struct Keyed {
@@ -137,6 +165,10 @@ private:
     std::vector<std::uint32_t> begins;  // of each grain, and one more
     std::vector<std::uint32_t> ends;    // of each grain's contacts with memory
     std::vector<std::uint32_t> sides;
+    std::vector<std::uint8_t> hasMemory;  // of each grain: a contact of it has
+    std::vector<std::uint32_t> identity;  // of each grain that was there when the list was made
+    bool made = false;                    // whether the first three columns are
+    mutable std::uint32_t asked = 0;      // whether somebody has asked for them
 };
 
 }  // namespace pendular

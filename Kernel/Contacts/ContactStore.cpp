@@ -1,5 +1,6 @@
 #include "Kernel/Contacts/ContactStore.h"
 
+#include <mutex>
 #include <utility>
 
 #include "Kernel/Contacts/Rearrangement.h"
@@ -92,6 +93,7 @@ void ContactMemory::rearrange(std::vector<std::uint32_t> origins, std::vector<st
 }
 
 void ContactStore::releaseList() {
+    sidesWereAskedFor = sides.wereAskedFor();
     const auto release = [](auto&... columns) {
         (std::remove_reference_t<decltype(columns)>().swap(columns), ...);
     };
@@ -99,7 +101,61 @@ void ContactStore::releaseList() {
     sides = ContactSides();
 }
 
-void ContactStore::listSides(const std::vector<std::uint32_t>& identity, int threads) {
+void ContactStore::beginSides(const std::vector<std::uint32_t>& identity, int threads) {
+    sides.begin(identity);
+    searches = 0;
+    const std::size_t firstAtWall = firstWallBlock();
+    for (std::size_t block = 0; block < blocks.size(); ++block) {
+        if (slots[block] == asleep) continue;
+        for (std::size_t lane = 0; lane < Pack::lanes; ++lane) {
+            if (!bitOf(states[block].listed, lane)) continue;
+            sides.markMemory(blocks[block].first[lane]);
+            if (block < firstAtWall) sides.markMemory(blocks[block].second[lane]);
+        }
+    }
+    if (sidesWereAskedFor) makeSides(threads);
+}
+
+void ContactStore::askForSides() const {
+    static std::mutex oneAfterTheOther;
+    const std::lock_guard lock(oneAfterTheOther);
+    if (!sides.areMade()) makeSides(1);
+    sides.noteAsked();
+}
+
+/// Looks through all contacts as long as that takes less time than to make the sides of all grains.
+ContactStore::OwnSides ContactStore::ownSidesOf(std::uint32_t grain) {
+    constexpr int worthSides = 32;  // searches
+    OwnSides own;
+    if (sides.areMade() || ++searches > worthSides) {
+        const auto awake = sidesOf(grain), others = asleepSidesOf(grain);
+        own = {{awake.begin(), awake.end()}, {others.begin(), others.end()}};
+        return own;
+    }
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
+    const auto add = [&](std::uint32_t contact, std::uint32_t which) {
+        if (slots[contact / Pack::lanes] == asleep) return own.asleep.push_back(2 * contact + which);
+        keyed.emplace_back(keyOf(contact, which, sides.identities()),
+                           2 * static_cast<std::uint32_t>(slotOf(contact)) + which);
+    };
+    for (std::size_t block = 0; block < blocks.size(); ++block) {
+        const ContactBlock& places = blocks[block];
+        bool isThere = false;
+        for (std::size_t lane = 0; lane < Pack::lanes; ++lane)
+            isThere |= places.first[lane] == grain || places.second[lane] == grain;
+        for (std::size_t lane = 0; isThere && lane < Pack::lanes; ++lane) {
+            if (!bitOf(states[block].listed, lane)) continue;
+            const auto contact = static_cast<std::uint32_t>(block * Pack::lanes + lane);
+            if (places.first[lane] == grain) add(contact, 0);
+            else if (block < firstWallBlock() && places.second[lane] == grain) add(contact, 1);
+        }
+    }
+    std::ranges::sort(keyed);
+    for (const auto& [key, side] : keyed) own.withMemory.push_back(side);
+    return own;
+}
+
+void ContactStore::makeSides(int threads) const {
     const std::size_t firstAtWall = firstWallBlock();
     const auto forEachSideIn = [&](std::size_t block, auto&& function) {
         for (std::uint32_t lane = 0; lane < Pack::lanes; ++lane) {
@@ -110,9 +166,11 @@ void ContactStore::listSides(const std::vector<std::uint32_t>& identity, int thr
         }
     };
     sides.list(
-        identity.size(), blocks.size(), threads, forEachSideIn,
+        blocks.size(), threads, forEachSideIn,
         [&](std::uint32_t contact) { return static_cast<std::uint32_t>(slotOf(contact)); },
-        [&](std::uint32_t contact, std::uint32_t which) { return keyOf(contact, which, identity); });
+        [&](std::uint32_t contact, std::uint32_t which) {
+            return keyOf(contact, which, sides.identities());
+        });
 }
 
 }  // namespace pendular

@@ -269,7 +269,7 @@ public:
     ContactMemory memory;
     std::vector<WallPointColumns> wallPoints;  // of the wall blocks, which come last
 
-    ContactSides sides;
+    mutable ContactSides sides;  // see sidesOf()
     bool keepsTotals = false;    // the kernel sums forces
     mutable ForceTotals totals;  // whoever moves the grains takes them
     /// The gap (m) of each block: while no two bodies have approached by this since they were listed, nothing
@@ -350,9 +350,27 @@ public:
         const auto wall = static_cast<std::uint64_t>(bucketOf(contact / Pack::lanes).wall);
         return (wall + 1) << 32 | block.second[lane];
     }
-    /// Lists the sides of all contacts.
+    /// The list is whole: contacts have the memory that they had.
     /// @param identity of the grain at each place
-    void listSides(const std::vector<std::uint32_t>& identity, int threads);
+    void beginSides(const std::vector<std::uint32_t>& identity, int threads);
+    /// The sides of a grain (ContactSides::of, asleepOf). The first one that asks after a new list makes
+    /// them, also where several threads ask.
+    [[nodiscard]] std::span<const std::uint32_t> sidesOf(std::size_t grain) const {
+        if (!sides.wereAskedFor()) [[unlikely]]
+            askForSides();
+        return sides.of(grain);
+    }
+    [[nodiscard]] std::span<const std::uint32_t> asleepSidesOf(std::size_t grain) const {
+        if (!sides.wereAskedFor()) [[unlikely]]
+            askForSides();
+        return sides.asleepOf(grain);
+    }
+    /// The sides of one grain that is about to be removed: a list from which few grains are removed needs
+    /// no sides for that.
+    struct OwnSides {
+        std::vector<std::uint32_t> withMemory, asleep;
+    };
+    [[nodiscard]] OwnSides ownSidesOf(std::uint32_t grain);
     /// Gives back what a new list makes again; what contacts remember stays.
     void releaseList();
 
@@ -374,6 +392,13 @@ public:
     static bool bitOf(unsigned bits, std::size_t contact) {
         return (bits >> (contact % Pack::lanes) & 1u) != 0;
     }
+
+private:
+    void askForSides() const;
+    void makeSides(int threads) const;
+
+    bool sidesWereAskedFor = false;  // those of the last list
+    int searches = 0;                // of ownSidesOf() since the list was made
 };
 
 }  // namespace pendular

@@ -435,13 +435,15 @@ std::vector<double> ContactSystem::finishRemovals(const Grains& grains) {
 
 double ContactSystem::endContactsOf(Grains& grains, std::uint32_t place) {
     if (place >= contacts.sides.grainCount()) return 0;
-    forEachActingOf(place, [&](const Bucket& bucket, std::uint32_t contact) {
+    const ContactStore::OwnSides own = contacts.ownSidesOf(place);
+    const auto takeForce = [&](const Bucket& bucket, std::uint32_t contact) {
         changeForce(grains, bucket, contact, -1);
-    });
+    };
+    for (const std::uint32_t side : own.withMemory) callIfActing(side / 2, takeForce);
     double stored = 0;
-    for (const std::uint32_t side : contacts.sides.of(place))
+    for (const std::uint32_t side : own.withMemory)
         stored += endContact(grains, contacts.contactAt(side / 2));
-    for (const std::uint32_t side : contacts.sides.asleepOf(place)) endContact(grains, side / 2);
+    for (const std::uint32_t side : own.asleep) endContact(grains, side / 2);
     return stored;
 }
 
@@ -737,7 +739,9 @@ void ContactSystem::wake(std::size_t block, const Bucket& bucket, const Grains& 
         const auto contact = static_cast<std::uint32_t>(block * Pack::lanes + lane);
         const auto slot = static_cast<std::uint32_t>(contacts.slotOf(contact));
         const auto wakeSide = [&](std::uint32_t place, std::uint32_t which) {
-            contacts.sides.wake(place, contact, which, slot, contactOf, keyOf, isListed);
+            contacts.sides.markMemory(place);
+            if (contacts.sides.areMade())
+                contacts.sides.wake(place, contact, which, slot, contactOf, keyOf, isListed);
         };
         wakeSide(contacts.blocks[block].first[lane], 0);
         if (bucket.wall < 0) wakeSide(contacts.blocks[block].second[lane], 1);

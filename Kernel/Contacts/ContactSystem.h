@@ -401,7 +401,7 @@ private:
     /// None of a grain that came after the list.
     [[nodiscard]] std::span<const std::uint32_t> sidesOf(std::uint32_t place) const {
         if (place >= contacts.sides.grainCount()) return {};
-        return contacts.sides.of(place);
+        return contacts.sidesOf(place);
     }
     /// Calls function(place in the memory) for each contact with memory, in the order of identities: of body
     /// 1, then of body 2.

@@ -45,9 +45,9 @@ void FacePassage::leave(const Grains& grains, std::span<const std::uint32_t> pla
         passing.place = place;
         passing.position = grains.translation[place].position;
         if (place >= store.sides.grainCount()) continue;  // it came after the list
-        for (const std::uint32_t side : store.sides.of(place))
+        for (const std::uint32_t side : store.sidesOf(place))
             note(grains, store.contactAt(side / 2), passing);
-        const auto others = store.sides.asleepOf(place);
+        const auto others = store.asleepSidesOf(place);
         std::vector<std::uint32_t> asleep(others.begin(), others.end());
         std::ranges::sort(asleep);  // the same order for any number of threads
         for (const std::uint32_t side : asleep) note(grains, side / 2, passing);

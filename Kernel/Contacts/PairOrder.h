@@ -46,15 +46,28 @@ public:
         return classes - 1 - std::min<std::size_t>(widest - own, apart - 1);
     }
 
+    /// Room that one sort after the other uses.
+    struct Buffer {
+        std::vector<ListedPair> pairs;
+        std::vector<std::uint8_t> classOf;
+    };
+
     /// Sorts pairs by their class; those of one class stay in their order.
-    /// @param buffer whose content is lost
-    void sort(std::span<ListedPair> pairs, std::vector<ListedPair>& buffer) const {
+    void sort(std::span<ListedPair> pairs, Buffer& buffer) const {
+        static_assert(classes <= 256);
+        if (buffer.pairs.size() < pairs.size()) {
+            buffer.pairs.resize(pairs.size());
+            buffer.classOf.resize(pairs.size());
+        }
         std::array<std::uint32_t, classes + 1> next{};
-        for (const ListedPair& pair : pairs) ++next[classOf(pair) + 1];
+        for (std::size_t k = 0; k < pairs.size(); ++k) {
+            const std::size_t own = classOf(pairs[k]);
+            buffer.classOf[k] = static_cast<std::uint8_t>(own);
+            ++next[own + 1];
+        }
         std::partial_sum(next.begin(), next.end(), next.begin());
-        buffer.resize(pairs.size());
-        for (const ListedPair& pair : pairs) buffer[next[classOf(pair)]++] = pair;
-        std::ranges::copy(buffer, pairs.begin());
+        for (std::size_t k = 0; k < pairs.size(); ++k) buffer.pairs[next[buffer.classOf[k]]++] = pairs[k];
+        std::copy_n(buffer.pairs.begin(), pairs.size(), pairs.begin());
     }
 
 private:

@@ -19,19 +19,19 @@ template <bool hasTorque, bool hasContactTorque>
     if constexpr (hasTorque) {
         const Mask torquePart = maskFromBits(0b01110000);
         Pack sum = 0;
-        for (const std::uint32_t side : store.sides.of(grain)) {
+        for (const std::uint32_t side : store.sidesOf(grain)) {
             const ForceTorqueRecord record = store.memory.records[side / 2];
             const Pack weight = select(torquePart, Pack(radius - record.halfOverlap), Pack(signs[side & 1]));
             sum = fma(Pack::load(&record.force.x), weight, sum);
         }
         auto result = std::bit_cast<ForceAndTorque<true>>(sum.toLanes());
         if constexpr (hasContactTorque)
-            for (const std::uint32_t side : store.sides.of(grain))
+            for (const std::uint32_t side : store.sidesOf(grain))
                 result.torque += signs[side & 1] * loadFour(store.memory.torques[side / 2].torque);
         return result;
     } else {
         ForceAndTorque<false> sum;
-        for (const std::uint32_t side : store.sides.of(grain))
+        for (const std::uint32_t side : store.sidesOf(grain))
             sum.force += signs[side & 1] * loadFour(store.memory.forces[side / 2].force);
         return sum;
     }
@@ -85,7 +85,7 @@ template <bool hasTorque, bool hasContactTorque>
                                                       double radius) {
     const QuantaOfContact<hasTorque, hasContactTorque> quanta(store, radius);
     std::array<std::int64_t, Pack::lanes> sum{};
-    for (const std::uint32_t side : store.sides.of(grain)) {
+    for (const std::uint32_t side : store.sidesOf(grain)) {
         if (!quanta.fits(side / 2)) return sumInOrder<hasTorque, hasContactTorque>(store, grain, radius);
         const auto own = quanta.of(side / 2, (side & 1) == 0 ? 1 : -1);
         for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += own[k];

@@ -93,9 +93,13 @@ void RememberedContacts::setState(const Entry& entry, std::size_t lane, BlockSta
 }
 
 std::uint32_t RememberedContacts::find(std::uint32_t place, std::uint32_t wall, std::uint32_t other) const {
+    constexpr std::size_t few = 12;  // of most grains
     const std::span<const Entry> own = of(place);
-    const auto found = std::ranges::lower_bound(own, std::tuple(wall, other), {}, orderOf);
-    if (found == own.end() || found->wall != wall || found->other != other) return none;
+    const auto isSought = [&](const Entry& entry) { return entry.other == other && entry.wall == wall; };
+    const auto found = own.size() <= few
+                           ? std::ranges::find_if(own, isSought)
+                           : std::ranges::lower_bound(own, std::tuple(wall, other), {}, orderOf);
+    if (found == own.end() || !isSought(*found)) return none;
     return begins[place] + static_cast<std::uint32_t>(found - own.begin());
 }
 

@@ -132,11 +132,25 @@ struct Listing {
                 expected.emplace(store.blocks[c / Pack::lanes].second[c % Pack::lanes], 2 * c + 1);
         });
         for (std::uint32_t k = 0; k < grains().size(); ++k) {
-            for (const std::uint32_t side : store.sides.of(k))
+            for (const std::uint32_t side : store.sidesOf(k))
                 found.emplace(k, 2 * store.contactAt(side / 2) + side % 2);
-            for (const std::uint32_t side : store.sides.asleepOf(k)) found.emplace(k, side);
+            for (const std::uint32_t side : store.asleepSidesOf(k)) found.emplace(k, side);
         }
         EXPECT_EQ(found, expected);
+    }
+
+    /// Looked for among all contacts, the sides of a grain are the same, in the same order.
+    void checkOwnSides() {
+        ContactStore unasked = system.store();
+        ASSERT_FALSE(unasked.sides.areMade());
+        const auto grainCount = static_cast<std::uint32_t>(std::min<std::size_t>(30, grains().size()));
+        for (std::uint32_t k = 0; k < grainCount; ++k) {
+            ContactStore::OwnSides own = unasked.ownSidesOf(k);
+            ASSERT_FALSE(unasked.sides.areMade());
+            const auto awake = system.store().sidesOf(k), asleep = system.store().asleepSidesOf(k);
+            EXPECT_TRUE(std::ranges::equal(own.withMemory, awake));
+            EXPECT_TRUE(std::ranges::is_permutation(own.asleep, asleep));
+        }
     }
 
     /// No pair of a block can act before two bodies have approached by the block's gap; it is the smallest of
@@ -186,6 +200,7 @@ protected:
         }();
         EXPECT_EQ(listing.listed(), expected);
         EXPECT_GT(expected.size(), 0u);
+        listing.checkOwnSides();
         listing.checkSides();
         listing.checkGaps();
         EXPECT_EQ(listing.listed(), expected);  // again, for grains that are sorted already

@@ -35,7 +35,7 @@ std::vector<ListedPair> randomPairs(std::uint32_t count, support::Random& random
 TEST(PairOrder, isThatOfAStableSortByClass) {
     support::Random random(1);
     const PairOrder order(width);
-    std::vector<ListedPair> buffer;
+    PairOrder::Buffer buffer;
     for (const std::uint32_t count : {0u, 1u, 2u, 7u, 100u, 2048u, 31u}) {
         std::vector<ListedPair> pairs = randomPairs(count, random), sorted = pairs;
         std::ranges::stable_sort(sorted, {}, [&](const ListedPair& pair) { return order.classOf(pair); });
@@ -49,7 +49,8 @@ TEST(PairOrder, isThatOfAStableSortByClass) {
 TEST(PairOrder, putsPairsThatBeginOrEndToTouchTogether) {
     support::Random random(2);
     const PairOrder order(width);
-    std::vector<ListedPair> pairs = randomPairs(2000, random), buffer;
+    std::vector<ListedPair> pairs = randomPairs(2000, random);
+    PairOrder::Buffer buffer;
     const auto kindOf = [](const ListedPair& pair) {
         if (pair.gap <= 0) return pair.soon > 0 ? 1 : 0;
         return pair.soon > 0 ? 3 : 2;
@@ -72,8 +73,8 @@ TEST(PairOrder, keepsPairsThatGoOnToTouchInTheirOrder) {
     const PairOrder order(width);
     std::vector<ListedPair> pairs{{0, 0, -2e-6F, -1e-6F}, {1, 0, 3e-6F, 2e-6F}, {2, 0, -5e-6F, -9e-6F},
                                   {3, 0, 1e-6F, -1e-6F},  {4, 0, -1e-7F, 0},    {5, 0, -1e-7F, 9e-5F},
-                                  {6, 0, -1e-9F, 1e-6F}},
-        buffer;
+                                  {6, 0, -1e-9F, 1e-6F}};
+    PairOrder::Buffer buffer;
     order.sort(pairs, buffer);
     EXPECT_EQ(numbersOf(pairs), (std::vector<std::uint32_t>{0, 2, 4, 6, 5, 3, 1}));
 }
