@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <exception>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "Kernel/Base/OpenShares.h"
@@ -78,18 +79,19 @@ void inParts(std::size_t count, int threads, Function&& function, std::size_t le
 /// tests have several shares.
 inline std::size_t shareOf(std::size_t worth) { return sharesSmallWork() ? 4 : worth; }
 
-/// Calls function(part, begin, end) for consecutive shares of [0, count), which threads take as they come:
-/// each first those of its own part, from the front, then what others have left, from its back: so it is the
-/// same shares in each step that go to another thread, whose cache has them then. What comes from the cache
-/// of another core can take longer than all that is done with it. A thread without a processor holds up the
-/// share that it has begun, and no more. A part is called many times, never twice at once. An exception of
-/// the first share that threw one is thrown on; where there are several parts, when all shares are done.
+/// Calls function(part, begin, end) for consecutive shares of the ranges [cuts[k], cuts[k + 1]), one range
+/// for each thread. Threads take shares as they come: each first those of its own range, from the front, then
+/// what others have left, from its back: so it is the same shares in each step that go to another thread,
+/// whose cache has them then. What comes from the cache of another core can take longer than all that is done
+/// with it. A thread without a processor holds up the share that it has begun, and no more. A part is called
+/// many times, never twice at once. An exception of the first share that threw one is thrown on; where there
+/// are several parts, when all shares are done.
 /// @param share how many are taken at once
 template <class Function>
-void inShares(std::size_t count, int threads, Function&& function, std::size_t least, std::size_t share) {
-    const std::size_t parts = partsOf(count, threads, least);
+void inSharesAt(std::span<const std::size_t> cuts, Function&& function, std::size_t share) {
+    const std::size_t parts = cuts.size() - 1;
     if (parts == 1 || helpersRest()) {
-        function(0, std::size_t{0}, count);
+        function(0, cuts.front(), cuts.back());
         return;
     }
     struct alignas(64) Part {
@@ -98,8 +100,7 @@ void inShares(std::size_t count, int threads, Function&& function, std::size_t l
         std::exception_ptr failure;
     };
     std::vector<Part> all(parts);
-    for (std::size_t k = 0; k < parts; ++k)
-        all[k].shares.cut(count * k / parts, count * (k + 1) / parts, share);
+    for (std::size_t k = 0; k < parts; ++k) all[k].shares.cut(cuts[k], cuts[k + 1], share);
     forEachPart(parts, [&](std::size_t own) {
         for (std::size_t k = 0; k < parts; ++k) {
             OpenShares& shares = all[(own + k) % parts].shares;
@@ -117,6 +118,21 @@ void inShares(std::size_t count, int threads, Function&& function, std::size_t l
     });
     const Part& first = *std::ranges::min_element(all, {}, &Part::failedAt);
     if (first.failure) std::rethrow_exception(first.failure);
+}
+
+/// Calls function(part, begin, end) for consecutive shares of [0, count), as inSharesAt() does with ranges of
+/// the same length.
+/// @param least how many are worth a thread; @param share how many are taken at once
+template <class Function>
+void inShares(std::size_t count, int threads, Function&& function, std::size_t least, std::size_t share) {
+    const std::size_t parts = partsOf(count, threads, least);
+    if (parts == 1) {
+        function(0, std::size_t{0}, count);
+        return;
+    }
+    std::vector<std::size_t> cuts(parts + 1);
+    for (std::size_t k = 0; k <= parts; ++k) cuts[k] = count * k / parts;
+    inSharesAt(cuts, function, share);
 }
 
 }  // namespace pendular

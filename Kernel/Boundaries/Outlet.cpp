@@ -176,6 +176,8 @@ static bool areWithinOutletPlane(const Vector<double>& normal, double offset,
 
 void OutletHandler::findGrains(const ParticleStore& grains, std::span<const std::uint32_t> tooYoung,
                                int threads) {
+    // Divided as at the end of a step: a thread then finds its own grains in the cache of its core.
+    constexpr std::size_t worthAThread = 2048;
     found.resize(static_cast<std::size_t>(threads));
     for (auto& own : found) own.clear();
     inParts(
@@ -203,7 +205,7 @@ void OutletHandler::findGrains(const ParticleStore& grains, std::span<const std:
                 for (std::size_t at = k; at < last; ++at) look(at);
             }
         },
-        16384);
+        worthAThread);
     for (const auto& own : found) leaving.insert(leaving.end(), own.begin(), own.end());
 }
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <chrono>
 #include <numeric>
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/Parallel.h"
+#include "Kernel/Contacts/BlockShares.h"
 #include "Kernel/Contacts/ContactList.h"
 #include "Kernel/Contacts/ContactMigration.h"
 #include "Kernel/Contacts/FacePassage.h"
@@ -70,7 +72,7 @@ bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift)
     unlisted += lastApproach;
     life.move(lastApproach, wallShift);
     ++stepsListed;
-    const bool hasEnded = unlisted < listBefore && life.isOver(grains);
+    const bool hasEnded = unlisted < listBefore && life.isOver(grains, threads);
     const bool isNear = hasEnded || unlisted >= listBefore ||
                         (liquid.formsAtFilms(*species) && liquid.largestFilmContact(grains) > filmsReach);
     const bool isTime = stepsListed % IdleLanes::interval == 0 && newListPays();
@@ -167,7 +169,7 @@ void ContactSystem::leaveCountsToFirstRank() {
 }
 
 void ContactSystem::listWithin(Grains& grains, double reach) {
-    if (reach <= listBefore - unlisted && life.reaches(reach, grains)) return;
+    if (reach <= listBefore - unlisted && life.reaches(reach, grains, threads)) return;
     listAgain(grains, true, reach);
     findWallPoints(grains, 0);
 }
@@ -244,7 +246,7 @@ std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts& r
     renewHeldMasses(grains);
     if (takesInGrains) cells = list.takeSearch();
     life.begin(grains, periodic, std::max(reach, largestFilmContactGap()), skin.width(), watches,
-               list.takeNearWalls());
+               list.takeNearWalls(), threads);
     if (!contacts.totals.quantum.isChosen()) chooseQuantum(grains);
     wallPatches.listed(contacts, *species, grains);
     skin.listed(contacts, grains.size());
@@ -504,6 +506,21 @@ void ContactSystem::computePairForces(const Grains& grains, double step, Contact
     if (contacts.keepsTotals) contacts.totals.begin(grains.size(), threads);
     contactEvents.begin();
     liquid.prepareChanged(contacts, *species, grains);
+    computePairs(grains, step, timing);
+}
+void ContactSystem::computePairs(const Grains& grains, double step, ContactTiming timing) {
+    // What another thread has written lies in the cache of its core.
+    asksAhead = threads > 1 && !helpersRest();
+    if (!asksAhead) {
+        prefetching.begin(contacts.bytes() + grains.bytes(), cache);
+        asksAhead = prefetching.asks();
+        if (prefetching.isMeasured()) {
+            const auto start = std::chrono::steady_clock::now();
+            compute(grains, step, timing, 0, firstWallBucket());
+            prefetching.end(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+            return;
+        }
+    }
     compute(grains, step, timing, 0, firstWallBucket());
 }
 /// By the largest pressure that springs of the scene can have: that of its largest and of its smallest grain,
@@ -645,8 +662,6 @@ void ContactSystem::compute(const Grains& grains, double step, ContactTiming tim
 bool ContactSystem::computeBlocks(const Grains& grains, double step, ContactTiming timing, std::size_t number,
                                   std::size_t begin, std::size_t end, const ComputedBy& by) {
     const Bucket& bucket = contacts.buckets[number];
-    // What another thread has written lies in the cache of its core.
-    const bool asksAhead = (threads > 1 && !helpersRest()) || contacts.bytes() + grains.bytes() > cache;
     const HeldInContacts held{grains.held.empty() ? nullptr : grains.held.data(),
                               heldMasses.empty() ? nullptr : heldMasses.data()};
     return species->compute({contacts,
@@ -671,11 +686,9 @@ bool ContactSystem::computeBlocks(const Grains& grains, double step, ContactTimi
                              by.springsAhead});
 }
 /// Blocks are independent: each writes only its own memory and records, and adds to the totals of its
-/// thread. A thread takes so many at once that
-/// it is done with them in some 0.1 ms; with superquadrics, in some ms.
+/// thread.
 void ContactSystem::computeBucket(const Grains& grains, double step, ContactTiming timing,
                                   std::size_t number) {
-    constexpr std::size_t blocksOfAShare = 128;
     const Bucket& bucket = contacts.buckets[number];
     std::atomic<bool> allHaveMemory = true;
     watches.assign(static_cast<std::size_t>(threads), overlapWatch.part());
@@ -692,15 +705,16 @@ void ContactSystem::computeBucket(const Grains& grains, double step, ContactTimi
         capillaryNumbers.add(ownCapillaryNumbers);
         return haveMemory;
     };
-    inShares(
-        bucket.end - bucket.begin, threads,
-        [&](int part, std::size_t begin, std::size_t end) {
-            const auto own = static_cast<std::size_t>(part);
-            if (!computeRange(bucket.begin + begin, bucket.begin + end, watches[own], capillaryWatches[own],
-                              part))
-                allHaveMemory = false;
-        },
-        blocksWorthAThread, shareOf(blocksOfAShare));
+    const auto computeShare = [&](int part, std::size_t begin, std::size_t end) {
+        const auto own = static_cast<std::size_t>(part);
+        if (!computeRange(begin, end, watches[own], capillaryWatches[own], part)) allHaveMemory = false;
+    };
+    if (threads > 1) {
+        const BlockShares shares(contacts.slots, bucket.begin, bucket.end, threads);
+        inSharesAt(shares.ranges(), computeShare, shares.length());
+    } else {
+        computeShare(0, bucket.begin, bucket.end);
+    }
     for (std::uint32_t b = bucket.begin; !allHaveMemory && b < bucket.end; ++b) {
         if (contacts.slots[b] != ContactStore::waking) continue;
         wake(b, bucket, grains);

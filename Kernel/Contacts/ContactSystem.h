@@ -18,6 +18,7 @@
 #include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Contacts/ObservedContact.h"
 #include "Kernel/Contacts/OverlapWatch.h"
+#include "Kernel/Contacts/PrefetchChoice.h"
 #include "Kernel/Contacts/SkinChoice.h"
 #include "Kernel/Contacts/WallPatches.h"
 #include "Kernel/Contacts/WallPointSearch.h"
@@ -396,7 +397,6 @@ private:
     [[nodiscard]] bool countsHere(const Bucket& bucket) const {
         return contacts.firstOf(std::size_t{bucket.begin} * Pack::lanes) < ownPlaces;
     }
-    static constexpr std::size_t blocksWorthAThread = 32;
     [[nodiscard]] std::size_t slotOf(const ObservedContact& seen) const;
     /// None of a grain that came after the list.
     [[nodiscard]] std::span<const std::uint32_t> sidesOf(std::uint32_t place) const {
@@ -465,6 +465,8 @@ private:
     bool computeBlocks(const Grains& grains, double step, ContactTiming timing, std::size_t bucket,
                        std::size_t begin, std::size_t end, const ComputedBy& by);
     void compute(const Grains& grains, double step, ContactTiming timing, std::size_t first, std::size_t end);
+    /// computePairForces() without what comes before, with or without prefetches.
+    void computePairs(const Grains& grains, double step, ContactTiming timing);
     void computeBucket(const Grains& grains, double step, ContactTiming timing, std::size_t number);
     void wake(std::size_t block, const Bucket& bucket, const Grains& grains);
     /// @param handsOver contacts go on at the part of the wall that stands for theirs
@@ -517,6 +519,8 @@ private:
     double rangeOfAll = 0;                    // m, the largest of two grains on whatever ranks
     int threads = 1;
     std::size_t cache = 0;  // bytes
+    PrefetchChoice prefetching;
+    bool asksAhead = false;  // in this step
     std::size_t rebuilds = 0;
     WallPointSearch wallPoints;
     WallPatches wallPatches;

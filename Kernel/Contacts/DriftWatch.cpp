@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/CellGrid.h"
 
 namespace pendular {
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double diametersOfACell = 4;  // of the largest grain
 constexpr double unlimited = std::numeric_limits<double>::infinity();
+constexpr std::size_t worthAThread = 1024;  // grains
 
 Four leastOf(Four a, Four b) { return a < b ? a : b; }
 Four mostOf(Four a, Four b) { return a > b ? a : b; }
@@ -19,24 +21,52 @@ double squaredShift(Four v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
 }  // namespace
 
-void DriftWatch::begin(const ParticleStore& grains, const PeriodicBox& box, double range) {
+const DriftWatch::Extent DriftWatch::nowhere{Four{unlimited, unlimited, unlimited, unlimited},
+                                             Four{-unlimited, -unlimited, -unlimited, -unlimited}};
+
+void DriftWatch::Extent::add(const Extent& other) {
+    low = leastOf(low, other.low);
+    high = mostOf(high, other.high);
+}
+
+void DriftWatch::begin(const ParticleStore& grains, const PeriodicBox& box, double range, int threads) {
     periodic = box;
     known = false;
     if (box.imagesMove || box.isSheared() || grains.size() == 0) return;
-    double largest = 0;
-    Four low{unlimited, unlimited, unlimited, 0}, high = -low;
     start.resize(grains.size());
     cellOf.resize(grains.size());
-    for (std::size_t k = 0; k < grains.size(); ++k) {
-        const Four position = fourOf(grains.translation[k].position);
-        start[k] = {position};
-        largest = std::max(largest, grains.translation[k].radius);
-        low = leastOf(low, position);
-        high = mostOf(high, position);
+    struct alignas(64) Found {
+        Extent places = nowhere;
+        double largest = 0;
+    };
+    std::vector<Found> found(partsOf(grains.size(), threads, worthAThread));
+    inParts(
+        grains.size(), threads,
+        [&](int part, std::size_t first, std::size_t end) {
+            Found own;
+            for (std::size_t k = first; k < end; ++k) {
+                const Four position = fourOf(grains.translation[k].position);
+                start[k] = {position};
+                own.largest = std::max(own.largest, grains.translation[k].radius);
+                own.places.add({position, position});
+            }
+            found[static_cast<std::size_t>(part)] = own;
+        },
+        worthAThread);
+    for (const Found& one : found) {
+        found[0].places.add(one.places);
+        found[0].largest = std::max(found[0].largest, one.largest);
     }
-    if (!divide({low[0], low[1], low[2]}, {high[0], high[1], high[2]}, grains.size(), largest)) return;
-    for (std::size_t k = 0; k < grains.size(); ++k)
-        cellOf[k] = cellAt(box.wrap(grains.translation[k].position));
+    const auto& [places, largest] = found[0];
+    const auto lengths = [](Four v) { return Lengths{v[0], v[1], v[2]}; };
+    if (!divide(lengths(places.low), lengths(places.high), grains.size(), largest)) return;
+    inParts(
+        grains.size(), threads,
+        [&](int, std::size_t first, std::size_t end) {
+            for (std::size_t k = first; k < end; ++k)
+                cellOf[k] = cellAt(box.wrap(grains.translation[k].position));
+        },
+        worthAThread);
     // Farther than that it is not known which image has come.
     halfReach = std::min(0.5 * (narrowest - 2 * largest - range), 0.4 * box.shortestLength());
     known = halfReach > 0;
@@ -65,7 +95,6 @@ bool DriftWatch::divide(const Lengths& low, const Lengths& high, std::size_t gra
         if (cells[axis] > 3) narrowest = std::min(narrowest, 1 / inverseSize[axis]);
     }
     narrowest *= 1 - 1e-6;  // rounded
-    extents.resize(std::size_t{cells[0]} * cells[1] * cells[2]);
     return true;
 }
 
@@ -78,29 +107,50 @@ std::uint32_t DriftWatch::cellAt(const Vector<double>& place) const {
     return indexOf(cell);
 }
 
-DriftWatch::Drift DriftWatch::drift(const ParticleStore& grains, std::span<const std::uint8_t> nearWalls) {
-    const Four nothing{unlimited, unlimited, unlimited, unlimited};
-    std::ranges::fill(extents, Extent{nothing, -nothing});
+DriftWatch::Drift DriftWatch::drift(const ParticleStore& grains, std::span<const std::uint8_t> nearWalls,
+                                    int threads) {
+    const std::size_t count = std::min(grains.size(), start.size());
+    extents.resize(partsOf(count, threads, worthAThread));
+    std::vector<Largest> found(extents.size());
+    inParts(
+        count, threads,
+        [&](int part, std::size_t first, std::size_t end) {
+            const auto own = static_cast<std::size_t>(part);
+            extents[own].assign(cellCount(), nowhere);
+            found[own] = look(grains, nearWalls, first, end, extents[own]);
+        },
+        worthAThread);
+    Largest largest;
+    for (std::size_t part = 0; part < found.size(); ++part) {
+        largest.farthest = std::max(largest.farthest, found[part].farthest);
+        largest.atWalls = std::max(largest.atWalls, found[part].atWalls);
+        for (std::size_t cell = 0; part > 0 && cell < cellCount(); ++cell)
+            extents[0][cell].add(extents[part][cell]);
+    }
+    // A box may be larger than what is in it.
+    return {std::sqrt(std::min(squaredApproach(), 4 * largest.farthest)), std::sqrt(largest.farthest),
+            std::sqrt(largest.atWalls)};
+}
+
+DriftWatch::Largest DriftWatch::look(const ParticleStore& grains, std::span<const std::uint8_t> nearWalls,
+                                     std::size_t first, std::size_t end, Extents& boxes) const {
     const Four whole{periodic.length.x, periodic.length.y, periodic.length.z, 0};
     const Four half = 0.5 * Four{wraps[0] ? whole[0] : unlimited, wraps[1] ? whole[1] : unlimited,
                                  wraps[2] ? whole[2] : unlimited, unlimited};
-    double farthest = 0, atWalls = 0;
-    for (std::size_t k = 0; k < std::min(grains.size(), start.size()); ++k) {
+    Largest largest;
+    for (std::size_t k = first; k < end; ++k) {
         const TranslationRecord& grain = grains.translation[k];
         if (grain.radius == 0 || cellOf[k] == none) continue;  // a gap, or another grain
         Four shift = loadFour(grain.position) - start[k].position;
         // Grains may have been brought back through a face.
         shift = shift > half ? shift - whole : shift;
         shift = shift < -half ? shift + whole : shift;
-        Extent& extent = extents[cellOf[k]];
-        extent.low = leastOf(extent.low, shift);
-        extent.high = mostOf(extent.high, shift);
+        boxes[cellOf[k]].add({shift, shift});
         const double squared = squaredShift(shift);
-        farthest = std::max(farthest, squared);
-        if (k < nearWalls.size() && nearWalls[k] != 0) atWalls = std::max(atWalls, squared);
+        largest.farthest = std::max(largest.farthest, squared);
+        if (k < nearWalls.size() && nearWalls[k] != 0) largest.atWalls = std::max(largest.atWalls, squared);
     }
-    // A box may be larger than what is in it.
-    return {std::sqrt(std::min(squaredApproach(), 4 * farthest)), std::sqrt(farthest), std::sqrt(atWalls)};
+    return largest;
 }
 
 double DriftWatch::squaredApproach() const {
@@ -113,7 +163,7 @@ double DriftWatch::squaredApproach() const {
 }
 
 double DriftWatch::squaredApproach(const std::array<std::uint32_t, 3>& cell) const {
-    const Extent own = extents[indexOf(cell)];
+    const Extent own = extents[0][indexOf(cell)];
     if (own.isEmpty()) return 0;
     double largest = squaredShift(own.high - own.low);
     for (int near = 14; near < 27; ++near) {  // half of the neighbours: the others find this one
@@ -121,7 +171,7 @@ double DriftWatch::squaredApproach(const std::array<std::uint32_t, 3>& cell) con
         if (!neighbour(0, cell[0], near % 3 - 1, to[0]) || !neighbour(1, cell[1], near / 3 % 3 - 1, to[1]) ||
             !neighbour(2, cell[2], near / 9 - 1, to[2]))
             continue;
-        const Extent& other = extents[indexOf(to)];
+        const Extent& other = extents[0][indexOf(to)];
         if (other.isEmpty()) continue;
         const Four most = mostOf(own.high - other.low, other.high - own.low);
         largest = std::max(largest, squaredShift(most));

@@ -18,8 +18,9 @@ namespace pendular {
 class DriftWatch {
 public:
     /// Notes where grains are.
-    /// @param range m, of the surfaces, at which two grains are listed
-    void begin(const ParticleStore& grains, const PeriodicBox& box, double range);
+    /// @param range m, of the surfaces, at which two grains are listed; @param threads that share it: the
+    /// results are the same bits for any number of them
+    void begin(const ParticleStore& grains, const PeriodicBox& box, double range, int threads = 1);
     /// Forgets what it has noted.
     void end() { known = false; }
     [[nodiscard]] bool knows() const { return known; }
@@ -31,7 +32,8 @@ public:
         double atWalls = 0;   // that a grain near a wall has come
     };
     /// @param nearWalls of each place: whether its grain counts as near a wall; none does beyond
-    [[nodiscard]] Drift drift(const ParticleStore& grains, std::span<const std::uint8_t> nearWalls);
+    [[nodiscard]] Drift drift(const ParticleStore& grains, std::span<const std::uint8_t> nearWalls,
+                              int threads = 1);
     /// m, how far a grain may come until grains meet that the cells keep apart.
     [[nodiscard]] double reach() const { return halfReach; }
     /// Another grain has come to this place.
@@ -51,7 +53,18 @@ private:
         Four low, high;
 
         [[nodiscard]] bool isEmpty() const { return low[0] > high[0]; }
+        void add(const Extent& other);
     };
+    static const Extent nowhere;          // of nothing
+    using Extents = std::vector<Extent>;  // of each cell
+
+    /// m^2, the largest squares of displacements of some grains.
+    struct Largest {
+        double farthest = 0, atWalls = 0;
+    };
+    /// Adds the displacements of the grains at some places to the boxes of their cells.
+    Largest look(const ParticleStore& grains, std::span<const std::uint8_t> nearWalls, std::size_t first,
+                 std::size_t end, Extents& boxes) const;
 
     /// Divides the scene into cells; false where it is too large for that.
     bool divide(const Lengths& low, const Lengths& high, std::size_t grains, double largestRadius);
@@ -61,6 +74,7 @@ private:
     /// The largest square of a difference of two displacements, of a cell and of its neighbours.
     [[nodiscard]] double squaredApproach() const;
     [[nodiscard]] double squaredApproach(const std::array<std::uint32_t, 3>& cell) const;
+    [[nodiscard]] std::size_t cellCount() const { return std::size_t{cells[0]} * cells[1] * cells[2]; }
     [[nodiscard]] std::uint32_t indexOf(const std::array<std::uint32_t, 3>& cell) const {
         return (cell[2] * cells[1] + cell[1]) * cells[0] + cell[0];
     }
@@ -74,7 +88,7 @@ private:
     std::array<bool, 3> wraps{};
     std::vector<Noted> start;           // where each grain was
     std::vector<std::uint32_t> cellOf;  // of each grain
-    std::vector<Extent> extents;        // of each cell
+    std::vector<Extents> extents;       // of each thread; the first has the sum
 };
 
 }  // namespace pendular

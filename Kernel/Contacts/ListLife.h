@@ -29,11 +29,11 @@ public:
     /// @param range m, at which bodies are listed beside the skin (m)
     /// @param watches how grains come
     void begin(const ParticleStore& grains, const PeriodicBox& box, double range, double listSkin,
-               bool watches, NearWalls grainsNearWalls) {
+               bool watches, NearWalls grainsNearWalls, int threads = 1) {
         skin = left = listSkin;
         unseen = wallsMoved = approached = 0;
         nearWalls = std::move(grainsNearWalls);
-        if (watches) drift.begin(grains, box, range + skin);
+        if (watches) drift.begin(grains, box, range + skin, threads);
         else drift.end();
     }
 
@@ -48,9 +48,9 @@ public:
     [[nodiscard]] double rest() const { return left - unseen; }
 
     /// Whether the list may lack bodies that act, or soon. It looks at all grains where rest() is spent.
-    [[nodiscard]] bool isOver(const ParticleStore& grains) {
+    [[nodiscard]] bool isOver(const ParticleStore& grains, int threads = 1) {
         if (rest() > 0) return false;
-        if (!look(grains)) {
+        if (!look(grains, threads)) {
             approached = unseen + approached;
             return true;
         }
@@ -58,8 +58,8 @@ public:
     }
     /// Whether the list has all bodies that are not farther apart than this (m). It looks at all grains where
     /// rest() is less.
-    [[nodiscard]] bool reaches(double gap, const ParticleStore& grains) {
-        return gap <= rest() || (look(grains) && gap <= rest());
+    [[nodiscard]] bool reaches(double gap, const ParticleStore& grains, int threads = 1) {
+        return gap <= rest() || (look(grains, threads) && gap <= rest());
     }
     /// m, with which contacts were listed.
     [[nodiscard]] double width() const { return skin; }
@@ -75,9 +75,9 @@ public:
 
 private:
     /// Finds rest() by how grains have really come; false where that is not known.
-    bool look(const ParticleStore& grains) {
+    bool look(const ParticleStore& grains, int threads) {
         if (!drift.knows() || lastMove > skin) return false;
-        const DriftWatch::Drift found = drift.drift(grains, nearWalls.flags);
+        const DriftWatch::Drift found = drift.drift(grains, nearWalls.flags, threads);
         approached = found.approach;
         if (!nearWalls.flags.empty())
             approached = std::max({approached, nearWalls.times * found.atWalls + wallsMoved,

@@ -170,7 +170,7 @@ private:
         }
     }
 
-    static constexpr std::size_t worthAThread = 256;  // contacts
+    static constexpr std::size_t worthAThread = 64;  // contacts
     HandOvers handOvers;
 };
 

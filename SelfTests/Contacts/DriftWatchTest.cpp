@@ -88,6 +88,36 @@ TEST(DriftWatch, boundsTheApproachOfAllPairs) {
     EXPECT_GT(known, 80u);
 }
 
+TEST(DriftWatch, givesTheSameBitsForAnyNumberOfThreads) {
+    Random random(7);
+    constexpr double edge = 60 * r;
+    const PeriodicBox box{{-0.5 * edge, -0.5 * edge, -0.5 * edge}, {edge, 0, edge}};
+    ParticleStore grains = grainsIn(edge, 5000, 1.5, random);
+    const ParticleStore before = grains;
+    std::vector<std::uint8_t> flags(grains.size());
+    for (std::size_t k = 0; k < grains.size(); ++k) {
+        grains.translation[k].position = box.wrap(grains.translation[k].position +
+                                                  displacementAt({0, 0, 0}, 0.1 * r, {r, 0, 0}, 0, random));
+        flags[k] = k % 3 == 0;
+    }
+    DriftWatch alone;
+    alone.begin(before, box, 0.5 * r);
+    ASSERT_TRUE(alone.knows());
+    const DriftWatch::Drift expected = alone.drift(grains, flags);
+    EXPECT_GT(expected.approach, 0);
+    for (const int threads : {2, 3, 4}) {
+        DriftWatch watch;
+        watch.begin(before, box, 0.5 * r, threads);
+        for (int again = 0; again < 2; ++again) {
+            const DriftWatch::Drift drift = watch.drift(grains, flags, threads);
+            EXPECT_EQ(drift.approach, expected.approach);
+            EXPECT_EQ(drift.farthest, expected.farthest);
+            EXPECT_EQ(drift.atWalls, expected.atWalls);
+        }
+        EXPECT_EQ(watch.reach(), alone.reach());
+    }
+}
+
 TEST(DriftWatch, seesNoApproachWhereAllMoveAlike) {
     Random random(2);
     ParticleStore grains = grainsIn(40 * r, 500, 1.5, random);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "SelfTests/Insertion/FilledScene.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Random.h"
+#include "SelfTests/Support/TestFolder.h"
 #include "SelfTests/Support/UnlistedTouches.h"
 
 namespace pendular::listLifeTest {
@@ -216,6 +218,42 @@ TEST(ListLife, endsBeforeAGrainTouchesAWallWithEndsBehindAFace) {
         touches = touches || scene.contacts().counts().touching > 0;
     }
     EXPECT_TRUE(touches);
+}
+
+// A restart makes a new list where the run goes on with one that has outlived its skin.
+TEST(ListLife, leavesARestartItsBits) {
+    const auto make = [] {
+        auto scene = std::make_unique<Flow>(7, Vec3D(2, 1, -0.5), 0.3);
+        for (int axis = 0; axis < 3; ++axis) scene->setPeriodic(axis, 0, width);
+        return scene;
+    };
+    const support::TestFolder folder;
+    const auto whole = make();
+    whole->initialise();
+    // The skin is at most the smallest radius. The largest approach in a step is at least twice the step at
+    // the mean velocity.
+    const int outlives = static_cast<int>(0.7 * r / (2 * Vec3D(2, 1, -0.5).norm() * dt)) + 1;
+    std::size_t list = 0;
+    for (int since = 0, k = 0; since <= outlives; ++since, ++k) {
+        ASSERT_LT(k, 2000) << "no list has outlived its skin";
+        whole->step();
+        if (const std::size_t now = whole->contacts().rebuildCount(); k < 300 || now != list) {
+            list = now;
+            since = 0;
+        }
+    }
+    whole->writeRestart(folder.path() / "half.h5");
+    whole->step();
+    ASSERT_EQ(whole->contacts().rebuildCount(), list) << "the list ends where the restart makes a new one";
+    const auto resumed = make();
+    resumed->restartFrom(folder.path() / "half.h5");
+    resumed->initialise();
+    resumed->step();
+    EXPECT_GT(whole->contacts().counts().touching, 10u);
+    for (int k = 0; k < 400; ++k) {
+        ASSERT_EQ(resumed->hash(), whole->hash()) << "step " << k;
+        whole->step(), resumed->step();
+    }
 }
 
 TEST(ListLife, endsBeforeGrainsThatComeTouch) {

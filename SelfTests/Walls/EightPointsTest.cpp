@@ -4,6 +4,7 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <type_traits>
 
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
@@ -132,6 +133,11 @@ TEST(EightPoints, haveTheBitsOfOne) {
         }
     }
 }
+
+// A shape that gives its points to eight grains is not asked for those of one: a class that is derived from
+// it could replace one function without the other.
+static_assert(std::is_final_v<InfiniteWall> && std::is_final_v<InfiniteCylinder> &&
+              std::is_final_v<FiniteCylinder>);
 
 /// A mesh has edges where parts cover each other, and images of a wall have parts of their own.
 TEST(EightPoints, areThoseOfShapesWithAShortFormula) {
