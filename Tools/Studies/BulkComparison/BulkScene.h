@@ -20,7 +20,7 @@ struct PeerMaterial {
     static constexpr double density = 2500;     // kg/m^3
     static inline double elasticModulus = 5e6;  // Pa, Young's; bulk-figures --modulus-Pa
     static constexpr double poissonRatio = 0.2;
-    static inline double restitution = 0.5;     // bulk-figures --restitution
+    static inline double restitution = 0.5;  // bulk-figures --restitution
     static constexpr double friction = 0.5;
     static constexpr double radius = 1e-3;   // m, of the largest grain, but for the intruder
     static constexpr double smallest = 0.8;  // of that; even between, so that no crystal forms

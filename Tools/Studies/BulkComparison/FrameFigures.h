@@ -88,9 +88,8 @@ public:
             const auto at = sums.find(name);
             if (at != sums.end()) found.emplace_back(name, at->second.first / at->second.second);
         };
-        for (const char* name :
-             {"coordination", "solid_fraction", "mean_stress_Pa", "agitation", "centre_angle_deg",
-              "surface_angle_deg"})
+        for (const char* name : {"coordination", "solid_fraction", "mean_stress_Pa", "agitation",
+                                 "centre_angle_deg", "surface_angle_deg"})
             mean(name);
         if (scene.name == "bed") found.emplace_back("settling_time_s", settlingTime());
         if (scene.name != "bed") mean("kinetic_energy_J");
