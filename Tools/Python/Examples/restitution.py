@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Restitution over the speed of an impact, dry and wet: all collisions of a chart in one call, beside the closed form.
 
-The liquid bridge of Willett et al. (2000), Langmuir 16, 9396, in its simple form, pulls with F(S) = F(0) / (1 + 2.1 s + 10 s^2), where
-s = S / sqrt(4 V / R), up to the gap at which it ruptures, S = (1 + angle/2) (V*^(1/3) + V*^(2/3) / 10) R. Its work W is what the grains lose
-besides the dashpot: e_wet = sqrt(e_dry^2 - 2 W / (m v^2)), with the reduced mass m, and 0 where the bridge holds them.
+The liquid bridge of Willett et al. (2000), Langmuir 16, 9396, in its simple form, pulls with F(S) = F(0) / (1 + 2.1 s + 10
+s^2), where s = S / sqrt(4 V / R), up to the gap at which it ruptures, S = (1 + angle/2) (V*^(1/3) + V*^(2/3) / 10) R. Its
+work W is what the grains lose besides the dashpot: e_wet = sqrt(e_dry^2 - 2 W / (m v^2)), with the reduced mass m, and 0
+where the bridge holds them.
 
     restitution.py [--output FOLDER]
 """

@@ -19,22 +19,24 @@ def collisions(species: str, *, radius: _kernel.ArrayLike, normal_velocity: _ker
     """Collisions of two spheres, or of a sphere with a plane wall, each in a scene of its own, on all cores.
 
     Each number may be an array: all are broadcast against each other, and what is returned has their shape. The bits do not
-    depend on the number of threads. Grain 1 moves along x, towards the other body and, by tangential_velocity, past it along y; spins
-    are about z. There is no gravity, and liquid that moves forms no films. Normal and tangential directions are those of the first touch.
+    depend on the number of threads. Grain 1 moves along x, towards the other body and, by tangential_velocity, past it along
+    y; spins are about z. There is no gravity, and liquid that moves forms no films. Normal and tangential directions are
+    those of the first touch.
 
     species: the name of the laws, as for add_species(). fields: its values, as for add_species(): density (kg/m^3), ...
-    radius, radius2: m, of the two grains; radius2 = inf is a plane wall, and without it the grains are equal. normal_velocity: m/s, of
-    approach; tangential_velocity: m/s, of grain 1 relative to the other body; spin1, spin2: rad/s.
+    radius, radius2: m, of the two grains; radius2 = inf is a plane wall, and without it the grains are equal.
+    normal_velocity: m/s, of approach; tangential_velocity: m/s, of grain 1 relative to the other body; spin1, spin2: rad/s.
     steps_in_contact: steps in the shortest contact that is sound, so that one at a low speed has more; time_step: s, instead.
     energies: also the energy ledger, which takes twice as long. threads: all processors without it.
 
-    Returns arrays by their names: parted; end ("parted", "drawn back": a bridge or an attraction holds the grains, or "creeps":
-    overdamped, or they sinter); restitution (0 unless they part); tangential_restitution (of the contact points, positive where their
-    sliding is reversed; NaN where they did not slide); normal_velocity_after_m_per_s, tangential_velocity_after_m_per_s,
-    spin1_after_rad_per_s, spin2_after_rad_per_s; contact_time_s of the first touch, and duration_s until the end;
-    largest_overlap_m; largest_normal_force_N (repulsion), largest_attraction_N (also of a dashpot), largest_tangential_force_N;
-    rupture_distance_m, the gap at which a bridge ruptured (0 without one); energy_before_J and energy_lost_J, of the relative motion
-    and of spins; time_step_s and steps; with energies those of the ledger, as lost_in_sliding_J.
+    Returns arrays by their names: parted; end ("parted", "drawn back": a bridge or an attraction holds the grains, or
+    "creeps": overdamped, or they sinter); restitution (0 unless they part); tangential_restitution (of the contact points,
+    positive where their sliding is reversed; NaN where they did not slide); normal_velocity_after_m_per_s (of parting),
+    tangential_velocity_after_m_per_s, spin1_after_rad_per_s, spin2_after_rad_per_s; contact_time_s of the first touch, and
+    duration_s until the end; largest_overlap_m; largest_normal_force_N (repulsion), largest_attraction_N (also of a dashpot),
+    largest_tangential_force_N; rupture_distance_m, the gap at which a bridge ruptured (0 without one); energy_before_J and
+    energy_lost_J, of the relative motion and of spins; time_step_s and steps; with energies those of the ledger, as
+    lost_in_sliding_J.
 
     Raises InputError and RunError with the index of the collision.
     """
@@ -50,9 +52,9 @@ def collisions(species: str, *, radius: _kernel.ArrayLike, normal_velocity: _ker
 def run_many(work: Callable[[Case], Answer], cases: Iterable[Case], *, threads: Optional[int] = None) -> List[Answer]:
     """What work(case) returns for each of the cases, in their order; several run at the same time, in threads.
 
-    work: a function that makes a scene of a case, runs it, and returns what is asked of it. Scenes step at the same time, while
-    what they do in Python takes turns; a scene of its own is best left with threads=1. Scenes that are made already are cases as well:
-    run_many(lambda scene: scene.run(0.1), scenes). threads: all processors without it.
+    work: a function that makes a scene of a case, runs it, and returns what is asked of it. Scenes step at the same time,
+    while what they do in Python takes turns; a scene of its own is best left with threads=1. Scenes that are made already are
+    cases as well: run_many(lambda scene: scene.run(0.1), scenes). threads: all processors without it.
 
     An exception in work is raised as the work under way has ended; no other case begins. Ctrl-C stops the scenes that run.
     """
