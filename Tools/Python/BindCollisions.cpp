@@ -137,13 +137,13 @@ py::dict columnsOf(const std::vector<CollisionOutcome>& outcomes, const std::vec
     py::list ends;
     for (const CollisionOutcome& one : outcomes) ends.append(std::string(nameOf(one.end)));
     made["end"] = py::array(ends).attr("astype")("U10").attr("reshape")(shape);
-    for (const auto& [name, member] : outcomeColumns)
-        made[name] = column(double{}, [member](const CollisionOutcome& o) { return o.*member; });
+    for (const OutcomeColumn& one : outcomeColumns)
+        made[one.name] = column(double{}, [&](const CollisionOutcome& o) { return o.*one.member; });
     made["steps"] = column(std::int64_t{}, [](const CollisionOutcome& o) { return o.steps; });
     if (!withEnergies) return made;
-    for (const auto& [name, member] : EnergyLedger::entries())
-        made[py::str(std::string(name) + "_J")] =
-            column(double{}, [member](const CollisionOutcome& o) { return (*o.energies).*member; });
+    for (const EnergyLedger::Entry& entry : EnergyLedger::entries())
+        made[py::str(std::string(entry.name) + "_J")] =
+            column(double{}, [&](const CollisionOutcome& o) { return (*o.energies).*entry.member; });
     return made;
 }
 
