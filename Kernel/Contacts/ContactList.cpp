@@ -95,8 +95,6 @@ void ContactList::findPairs(const Grains& grains, const RememberedContacts& old,
     const PairSearch search(grains.translation, margin, periodic, threads);
     const bool usable = search.isUsable();
     if (keepsCells || !usable) found.emplace(grains.translation, margin, periodic, threads);
-    const bool anyHeld = std::ranges::any_of(
-        grains.translation, [](const TranslationRecord& grain) { return grain.inverseMass == 0; });
     listInParts(grains.size(), [&](Groups& own, std::size_t begin, std::size_t end) {
         for (std::size_t a = 0; a < laws.speciesCount(); ++a)
             for (std::size_t b = a; b < laws.speciesCount(); ++b)
@@ -104,22 +102,11 @@ void ContactList::findPairs(const Grains& grains, const RememberedContacts& old,
         // A vector's own growth would take up to twice the memory.
         const std::size_t share = pairsBefore * (end - begin) / std::max<std::size_t>(grains.size(), 1);
         if (own.size() == 1) own[0].contacts.reserve(share + share / 16);
-        // Pairs of one species of which nothing but their gap is asked.
-        const bool areAlike = laws.speciesCount() == 1 && !laws.actsApart && !(reachOfAll > 0) && !anyHeld &&
-                              grains.ownSize() == grains.size() && grains.bodies.size() == 0;
-        PairSearch::Partners partners;
         for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
             const auto add = [&](std::uint32_t j, double gap, double closing) {
                 if (!laws.actsApart || nearEnough(grains, i, j)) addPair(own, grains, i, j, gap, closing);
             };
-            const std::uint32_t self = grains.identity[i];
-            const auto addAlike = [&](std::uint32_t j, double gap, double closing) {
-                const bool isOrdered = self < grains.identity[j];
-                own[0].contacts.push_back({isOrdered ? i : j, isOrdered ? j : i, static_cast<float>(gap),
-                                           static_cast<float>(gap - horizon * closing)});
-            };
-            if (usable && areAlike) search.forEachPartner(i, partners, addAlike);
-            else if (usable) search.forEachPartner(i, partners, add);
+            if (usable) search.forEachPartner(i, add);
             else found->forEachPartner(i, [&](std::uint32_t j) { add(j, gapOf(grains, i, j), 0); });
             if (!laws.formsAtContact) continue;
             for (const auto& entry : old.of(formerPlace[i])) {

@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "Kernel/Math/Compress.h"
 #include "Kernel/Math/Pack.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Particles/PeriodicBox.h"
@@ -35,39 +34,19 @@ public:
         return squaredNorm(periodic.nearest(other.position - one.position)) < reach * reach;
     }
 
-    /// What is known of the partners of a grain, one behind the other. One search after the other uses its
-    /// room.
-    class Partners {
-        friend class PairSearch;
-        /// Room for so many more, and a Pack.
-        void reserve(std::size_t more) {
-            if (count + more + Pack::lanes <= columns.size()) return;
-            for (std::vector<double>* each : {&squared, &reach, &along})
-                each->resize(2 * (count + more) + 64);
-            columns.resize(2 * (count + more) + 64);
-        }
-        std::vector<std::uint32_t> columns;
-        // m^2; m, of both grains with the margin; m^2/s, shift x velocity
-        std::vector<double> squared, reach, along;
-        std::size_t count = 0;
-    };
-
     /// Calls function(other, gap, closing) for each grain that forms a pair with this one and comes after it:
     /// the gap (m) of their surfaces, and the speed (m/s) at which it closes, without that of moving images.
     /// The order of the calls depends on the grains only.
     template <class Function>
-    void forEachPartner(std::uint32_t grain, Partners& found, Function&& function) const {
+    void forEachPartner(std::uint32_t grain, Function&& function) const {
         const std::uint32_t column = columnOf[grain];
         if (column == none) return;
-        find(column, found);
-        for (std::size_t k = 0; k < found.count; k += Pack::lanes) {
-            const Pack distance = sqrt(eightAt(&found.squared[k]));
-            const auto gaps = (distance - eightAt(&found.reach[k]) + Pack(margin)).toLanes();
-            // Centres may coincide.
-            const auto closing = (-eightAt(&found.along[k]) / max(distance, Pack(1e-300))).toLanes();
-            const std::size_t lanes = std::min<std::size_t>(found.count - k, Pack::lanes);
-            for (std::size_t lane = 0; lane < lanes; ++lane)
-                function(places[found.columns[k + lane]], gaps[lane], closing[lane]);
+        const Seeker self = seekerAt(column);
+        for (const Grid& grid : grids) {
+            if (grid.begin == grid.end || grid.end <= column) continue;  // empty, or of smaller grains
+            if (periodic.isSheared()) lookFromImages(grid, self, function);
+            else if (periodic.any()) lookAround<Images::AlongAxes>(grid, self, self.position, function);
+            else lookAround<Images::None>(grid, self, self.position, function);
         }
     }
 
@@ -150,21 +129,22 @@ private:
 
     /// In shear, where cells beyond a face have slid, one looks from the grain's images there, for the grains
     /// to which each is the nearest.
-    void lookFromImages(const Grid& grid, Seeker self, Partners& found) const {
+    template <class Function>
+    void lookFromImages(const Grid& grid, Seeker self, Function&& function) const {
         const double reach = (self.size + grid.largest) * norm(periodic.across);  // as a share of the box
         const double place = dot(periodic.across, self.position - periodic.lowest);
         for (const double image : {-1.0, 0.0, 1.0}) {
             if (place - image + reach < 0 || place - image - reach > 1) continue;
             self.image = image;
             lookAround<Images::Sliding>(
-                grid, self, periodic.wrapAlongAxes(self.position - image * periodic.imageShift), found);
+                grid, self, periodic.wrapAlongAxes(self.position - image * periodic.imageShift), function);
         }
     }
 
     /// Looks at the candidates in all cells within reach of a position.
-    template <Images images>
+    template <Images images, class Function>
     void lookAround(const Grid& grid, const Seeker& self, const Vector<double>& position,
-                    Partners& found) const {
+                    Function&& function) const {
         const double reach = self.size + grid.largest;
         const Cells x = grid.cellsWithin(0, position.x, reach), y = grid.cellsWithin(1, position.y, reach),
                     z = grid.cellsWithin(2, position.z, reach);
@@ -175,7 +155,8 @@ private:
                 const int count = grid.cells[0];
                 if (row[count] <= self.column) continue;
                 const auto lookAt = [&](int first, int last) {
-                    lookAtStretch<images>(self, std::max(row[first], self.column + 1), row[last + 1], found);
+                    lookAtStretch<images>(self, std::max(row[first], self.column + 1), row[last + 1],
+                                          function);
                 };
                 if (x.first < 0) lookAt(0, x.last), lookAt(x.first + count, count - 1);
                 else if (x.last >= count) lookAt(0, x.last - count), lookAt(x.first, count - 1);
@@ -190,12 +171,9 @@ private:
         else return periodic.nearest(shift);
     }
 
-    /// Without a branch on what is found, which could not be foreseen.
-    template <Images images>
+    template <Images images, class Function>
     [[gnu::always_inline]] void lookAtStretch(const Seeker& self, std::uint32_t begin, std::uint32_t end,
-                                              Partners& found) const {
-        if (begin >= end) return;
-        found.reserve(end - begin);
+                                              Function&& function) const {
         for (std::uint32_t k = begin; k < end; k += Pack::lanes) {
             const Vector<Pack> apart{eightAt(&columns[0][k]) - Pack(self.position.x),
                                      eightAt(&columns[1][k]) - Pack(self.position.y),
@@ -206,26 +184,24 @@ private:
             if (end - k < Pack::lanes) hits &= (1u << (end - k)) - 1;
             if constexpr (images == Images::Sliding)
                 hits &= bits(periodic.imagesIn(apart) == Pack(-self.image));
-            const Vector<Pack> velocity{eightAt(&columns[4][k]) - Pack(self.velocity.x),
-                                        eightAt(&columns[5][k]) - Pack(self.velocity.y),
-                                        eightAt(&columns[6][k]) - Pack(self.velocity.z)};
-            const auto lanes = static_cast<std::uint8_t>(hits);
-            storeLanes(squared, lanes, &found.squared[found.count]);
-            storeLanes(reach, lanes, &found.reach[found.count]);
-            storeLanes(dot(shift, velocity), lanes, &found.along[found.count]);
-            storeLaneNumbers(k, lanes, &found.columns[found.count]);
-            found.count += static_cast<std::size_t>(std::popcount(hits));
+            if (hits != 0) report(self, k, hits, shift, squared, reach, function);
         }
     }
 
-    void find(std::uint32_t column, Partners& found) const {
-        found.count = 0;
-        const Seeker self = seekerAt(column);
-        for (const Grid& grid : grids) {
-            if (grid.begin == grid.end || grid.end <= column) continue;  // empty, or of smaller grains
-            if (periodic.isSheared()) lookFromImages(grid, self, found);
-            else if (periodic.any()) lookAround<Images::AlongAxes>(grid, self, self.position, found);
-            else lookAround<Images::None>(grid, self, self.position, found);
+    template <class Function>
+    [[gnu::always_inline]] void report(const Seeker& self, std::uint32_t k, unsigned hits,
+                                       const Vector<Pack>& shift, const Pack& squared, const Pack& reach,
+                                       Function&& function) const {
+        const Pack distance = sqrt(squared);
+        const auto gaps = (distance - reach + Pack(margin)).toLanes();
+        const Vector<Pack> velocity{eightAt(&columns[4][k]) - Pack(self.velocity.x),
+                                    eightAt(&columns[5][k]) - Pack(self.velocity.y),
+                                    eightAt(&columns[6][k]) - Pack(self.velocity.z)};
+        // Centres may coincide.
+        const auto closing = (-dot(shift, velocity) / max(distance, Pack(1e-300))).toLanes();
+        for (; hits != 0; hits &= hits - 1) {
+            const auto lane = static_cast<std::uint32_t>(std::countr_zero(hits));
+            function(places[k + lane], gaps[lane], closing[lane]);
         }
     }
 

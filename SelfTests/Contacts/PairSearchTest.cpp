@@ -62,9 +62,8 @@ Pairs bruteForce(const Grains& grains, double margin, const PeriodicBox& box) {
 
 Pairs pairsOf(const PairSearch& search, std::size_t count) {
     Pairs pairs;
-    PairSearch::Partners partners;
     for (std::uint32_t i = 0; i < count; ++i)
-        search.forEachPartner(i, partners, [&](std::uint32_t j, double gap, double closing) {
+        search.forEachPartner(i, [&](std::uint32_t j, double gap, double closing) {
             EXPECT_TRUE(pairs.emplace(std::minmax(i, j), Approach{gap, closing}).second) << "found twice";
         });
     return pairs;
@@ -229,9 +228,8 @@ TEST(PairSearch, callsInTheSameOrderWithAnyNumberOfThreads) {
     const auto calls = [&](int threads) {
         const PairSearch search(grains, 0.3 * r, boxOf(5, 61 * r), threads);
         std::vector<std::tuple<std::uint32_t, std::uint32_t, double, double>> all;
-        PairSearch::Partners partners;
         for (std::uint32_t i = 0; i < grains.size(); ++i)
-            search.forEachPartner(i, partners, [&](std::uint32_t j, double gap, double closing) {
+            search.forEachPartner(i, [&](std::uint32_t j, double gap, double closing) {
                 all.emplace_back(i, j, gap, closing);
             });
         return all;
