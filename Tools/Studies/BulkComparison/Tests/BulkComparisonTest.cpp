@@ -135,7 +135,7 @@ double distanceOf(const std::vector<Triangle>& triangles, const Vector<double>& 
 TEST(BulkComparison, theMixerHasRoomForItsGrainsAndFitsItsPeriod) {
     UniformRandom random(1);
     const BulkScene scene = detail::mixer(random, 0.3);
-    EXPECT_GT(scene.grains.size(), 200u);
+    EXPECT_GT(scene.grains.size(), 100u);
     for (const PeerMesh& mesh : scene.meshes)
         for (std::size_t k = 0; k < scene.grains.size(); k += 5) {
             const PeerGrain& grain = scene.grains[k];
