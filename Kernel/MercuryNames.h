@@ -5,11 +5,11 @@
 
 #include <numbers>
 
-#include "Kernel/Base/Logger.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Species/Laws.h"
-#include "Kernel/Species/TimeStepAdvice.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Foundation/Base/Logger.h"
+#include "Kernel/Laws/Species/TimeStepAdvice.h"
+#include "Kernel/Scene/Simulation.h"
 
 using Mdouble = double;
 /// Any grain has a film where liquid moves.

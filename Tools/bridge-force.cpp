@@ -7,10 +7,10 @@
 
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/Species/BridgeLaws.h"
-#include "Kernel/Species/LawNames.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Laws/Species/LawNames.h"
+#include "Kernel/Scene/BridgeLaws.h"
 
 using namespace pendular;
 

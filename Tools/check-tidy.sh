@@ -60,7 +60,7 @@ done
 # The flags of clang for a file of the kernel, with those for HDF5 and MPI; and what CMake generates.
 cmake -G Ninja -S "$folder" -B "$build" -D CMAKE_CXX_COMPILER=clang++ -D CMAKE_BUILD_TYPE=Release -D CMAKE_EXPORT_COMPILE_COMMANDS=ON \
     -D PENDULAR_PRECOMPILED_HEADERS=OFF -D PENDULAR_FILES_AT_A_TIME=0 -D PENDULAR_BUILD_TESTS=OFF >/dev/null
-sed -n 's/^ *"command": ".*clang++ \(.*\) -o .*Kernel\/State\/Hdf5File.cpp",$/\1/p' "$build/compile_commands.json" >"$build/flags"
+sed -n 's/^ *"command": ".*clang++ \(.*\) -o .*Kernel\/Foundation\/State\/Hdf5File.cpp",$/\1/p' "$build/compile_commands.json" >"$build/flags"
 mpi=$(grep '"command".*MpiRanks.cpp' "$build/compile_commands.json" || true)
 grep -o -e '-isystem [^ ]*' <<<"$mpi" >>"$build/flags" || true
 # The places of the module of MPI, which one file is given; as a shell reads them.

@@ -9,9 +9,9 @@
 
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/Species/BridgeChoice.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Scene/BridgeChoice.h"
 #include "Tools/Timing/BridgeTiming.h"
 
 using namespace pendular;

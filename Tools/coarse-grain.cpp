@@ -12,12 +12,12 @@
 
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Base/InputError.h"
-#include "Kernel/CoarseGraining/FieldFiles.h"
-#include "Kernel/CoarseGraining/SceneState.h"
-#include "Kernel/Output/BoxFields.h"
-#include "Kernel/Output/ParaViewSeries.h"
-#include "Kernel/Simulation/Program.h"
+#include "Kernel/Analysis/CoarseGraining/FieldFiles.h"
+#include "Kernel/Analysis/CoarseGraining/SceneState.h"
+#include "Kernel/Analysis/Output/BoxFields.h"
+#include "Kernel/Analysis/Output/ParaViewSeries.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Foundation/Base/InputError.h"
 
 using namespace pendular;
 

@@ -10,12 +10,12 @@
 
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Particles/ParticleStore.h"
-#include "Kernel/Ranks/Bisection.h"
-#include "Kernel/Ranks/GrainExtents.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/Species/Field.h"
-#include "Kernel/State/RestartFile.h"
+#include "Kernel/Core/Particles/ParticleStore.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Features/DomainDecomposition/Bisection.h"
+#include "Kernel/Features/DomainDecomposition/GrainExtents.h"
+#include "Kernel/Foundation/State/RestartFile.h"
+#include "Kernel/Laws/Concepts/Field.h"
 
 using namespace pendular;
 

@@ -15,7 +15,7 @@ behind it. The part "all" is the whole function.
 more stores, and 77 if no function is found or none uses such registers (a machine without AVX-512).
 
 Why: g++ 12 keeps a const struct, array or structured binding of packs that an inlined function returns in memory, at
-one store for each pack (Kernel/Math/Pack.h). The kernel of grain with grain and with walls, in a build of g++:
+one store for each pack (Kernel/Foundation/Math/Pack.h). The kernel of grain with grain and with walls, in a build of g++:
   count-stack-stores.py libPendularKernel.a 'ContactKernel<' 'computeBlock<' \
       'HertzianViscoelastic, pendular::Mindlin, pendular::NoAdhesion'
 """
@@ -102,7 +102,7 @@ def main():
     most = max(stores for stores, _ in rows)
     if most > options.at_most:
         sys.exit(f"{most} stores to the stack, {options.at_most} are allowed. Is there a const pack? See "
-                 "Kernel/Math/Pack.h.")
+                 "Kernel/Foundation/Math/Pack.h.")
 
 
 if __name__ == "__main__":

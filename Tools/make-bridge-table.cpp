@@ -1,5 +1,5 @@
-/// Writes Kernel/Capillary/BridgeTableNumbers.cpp: the exact liquid bridge as a table, from the Young-Laplace
-/// solver.
+/// Writes Kernel/Features/LiquidBridges/YoungLaplace/BridgeTableNumbers.cpp: the exact liquid bridge as a
+/// table, from the Young-Laplace solver.
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Capillary/BridgeTableMaking.h"
-#include "Kernel/Simulation/Program.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Features/LiquidBridges/YoungLaplace/BridgeTableMaking.h"
 
 using namespace pendular;
 
@@ -31,7 +31,7 @@ void printProduct(const auto& product) {
 void printTable(const BridgeTable& table) {
     fmt::print(
         "// Written by make-bridge-table; not by hand.\n// clang-format off\n\n"
-        "#include \"Kernel/Capillary/BridgeTable.h\"\n\nnamespace pendular {{\n\n"
+        "#include \"Kernel/Features/LiquidBridges/YoungLaplace/BridgeTable.h\"\n\nnamespace pendular {{\n\n"
         "const std::uint64_t bridgeTableChecksum = {:#x};\n\nconst BridgeTable bridgeTable{{\n",
         checksum(table));
     printProduct(table.rupture);

@@ -10,10 +10,10 @@
 # --threads N       files that are compiled at the same time
 # --build FOLDER    where the build folders are made, and removed again; a temporary one if not given
 # --all             also builds everything, with the tests and the studies, before the edits
-# --header FILE     the header that is touched then; Kernel/Motion/PlaneMotion.h if not given
+# --header FILE     the header that is touched then; Kernel/Features/MovingWalls/PlaneMotion.h if not given
 set -euo pipefail
 tools=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-runs=3 threads=1 edit=WetTower header=Kernel/Motion/PlaneMotion.h build="${TMPDIR:-/tmp}" all=""
+runs=3 threads=1 edit=WetTower header=Kernel/Features/MovingWalls/PlaneMotion.h build="${TMPDIR:-/tmp}" all=""
 targets="PendularKernel PendularDrivers WetTower TwoParticleCollision accuracy-versus-cost bridge-scenes"
 command_line="Tools/measure-build.sh $*"
 source "$tools/read-options.sh"

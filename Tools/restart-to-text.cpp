@@ -4,8 +4,8 @@
 
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/State/RestartFile.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Foundation/State/RestartFile.h"
 
 using namespace pendular;
 

@@ -11,12 +11,12 @@
 
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/Sizes/SizeLaws.h"
-#include "Kernel/Sizes/SizeSample.h"
-#include "Kernel/Sizes/SizeTable.h"
-#include "Kernel/Species/LawNames.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Features/SizeDistributions/SizeSample.h"
+#include "Kernel/Features/SizeDistributions/SizeTable.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Laws/Species/LawNames.h"
 
 using namespace pendular;
 

@@ -5,9 +5,9 @@
 
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Files/FileName.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/Species/Field.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Foundation/Files/FileName.h"
+#include "Kernel/Laws/Concepts/Field.h"
 #include "Tools/Snapshot/Compose.h"
 #include "Tools/Snapshot/Render.h"
 

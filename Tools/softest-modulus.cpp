@@ -4,8 +4,8 @@
 
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/Simulation/SoftestModulus.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Scene/TimeStep/SoftestModulus.h"
 
 using namespace pendular;
 

@@ -7,11 +7,11 @@
 
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Contacts/SeveralSpeciesHandler.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/Species/LawNames.h"
-#include "Kernel/Species/Laws.h"
-#include "Kernel/Species/Setter.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Features/SpeciesByName/SeveralSpeciesHandler.h"
+#include "Kernel/Laws/Concepts/Setter.h"
+#include "Kernel/Laws/Species/LawNames.h"
 
 using namespace pendular;
 

@@ -7,9 +7,9 @@
 
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/Simulation/SummaryFile.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Core/Run/SummaryFile.h"
+#include "Kernel/Foundation/Base/InputError.h"
 
 using namespace pendular;
 

@@ -3,8 +3,8 @@
 
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/GrainLattice.h"
+#include "Kernel/Analysis/Output/RunTable.h"
 #include "Kernel/MercuryNames.h"
-#include "Kernel/Output/RunTable.h"
 
 namespace {
 

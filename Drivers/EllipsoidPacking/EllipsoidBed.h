@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "Drivers/Shared/RunOptions.h"
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Insertion/ClumpInsertion.h"
-#include "Kernel/Math/CountedRandom.h"
+#include "Kernel/Features/EnergyLedger/GrainSums.h"
+#include "Kernel/Features/Insertion/ClumpInsertion.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Foundation/Math/CountedRandom.h"
 #include "Kernel/MercuryNames.h"
-#include "Kernel/Particles/GrainSums.h"
-#include "Kernel/Simulation/SuperquadricSimulation.h"
+#include "Kernel/Scene/SuperquadricSimulation.h"
 
 namespace pendular {
 

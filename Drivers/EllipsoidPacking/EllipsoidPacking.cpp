@@ -4,7 +4,7 @@
 #include "Drivers/EllipsoidPacking/EllipsoidBed.h"
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/CommandLineLibrary.h"
-#include "Kernel/Files/CsvFile.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
 
 using namespace pendular;
 

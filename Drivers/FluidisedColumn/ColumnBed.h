@@ -5,8 +5,8 @@
 #include <memory>
 #include <numbers>
 
-#include "Kernel/Fluid/ColumnFlow.h"
-#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Features/Fluid/ColumnFlow.h"
+#include "Kernel/Scene/Simulation.h"
 
 namespace pendular {
 

@@ -9,8 +9,8 @@
 #include "Drivers/FluidisedColumn/ColumnBed.h"
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/CommandLineLibrary.h"
-#include "Kernel/Math/Halving.h"
-#include "Kernel/Output/RunTable.h"
+#include "Kernel/Analysis/Output/RunTable.h"
+#include "Kernel/Foundation/Math/Halving.h"
 
 using namespace pendular;
 

@@ -3,8 +3,8 @@
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/HopperScene.h"
-#include "Kernel/Files/CsvFile.h"
-#include "Kernel/Sizes/SizeTable.h"
+#include "Kernel/Features/SizeDistributions/SizeTable.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
 
 using namespace pendular;
 

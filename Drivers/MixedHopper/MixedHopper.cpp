@@ -7,7 +7,7 @@
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/MeanFlow.h"
-#include "Kernel/Files/CsvFile.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
 
 using namespace pendular;
 

@@ -8,12 +8,12 @@
 
 #include "Drivers/Shared/Beverloo.h"
 #include "Drivers/Shared/RunOptions.h"
-#include "Kernel/Particles/ClumpTemplate.h"
-#include "Kernel/Particles/MovingBodies.h"
-#include "Kernel/Simulation/SuperquadricSimulation.h"
-#include "Kernel/Sizes/SizeLaws.h"
-#include "Kernel/Species/Laws.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
+#include "Kernel/Features/RigidBodies/ClumpTemplate.h"
+#include "Kernel/Features/RigidBodies/MovingBodies.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Scene/SuperquadricSimulation.h"
 
 namespace pendular {
 

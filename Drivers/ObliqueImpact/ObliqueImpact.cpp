@@ -8,8 +8,8 @@
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/SphereImpact.h"
-#include "Kernel/Files/CsvFile.h"
-#include "Kernel/Files/FileFault.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
+#include "Kernel/Foundation/Files/FileFault.h"
 
 using namespace pendular;
 

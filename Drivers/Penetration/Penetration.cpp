@@ -5,7 +5,7 @@
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/FirstState.h"
 #include "Drivers/Shared/PenetrationScene.h"
-#include "Kernel/Output/RunTable.h"
+#include "Kernel/Analysis/Output/RunTable.h"
 
 using namespace pendular;
 

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "Drivers/Shared/RunOptions.h"
-#include "Kernel/Base/RunError.h"
+#include "Kernel/Features/EnergyLedger/GrainSums.h"
+#include "Kernel/Features/RigidBodies/ClumpTemplate.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "Kernel/MercuryNames.h"
-#include "Kernel/Particles/ClumpTemplate.h"
-#include "Kernel/Particles/GrainSums.h"
-#include "Kernel/Sizes/SizeLaws.h"
 
 namespace pendular {
 

@@ -3,7 +3,7 @@
 #include "Drivers/RodPacking/RodBed.h"
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/CommandLineLibrary.h"
-#include "Kernel/Files/CsvFile.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
 
 using namespace pendular;
 

@@ -4,13 +4,13 @@
 
 #include <string_view>
 
-#include "Kernel/Particles/SphericalParticle.h"
-#include "Kernel/Species/Friction/CombinedLaws.h"
-#include "Kernel/Species/Friction/Friction.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Friction/MindlinRollingTorsion.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Core/Particles/SphericalParticle.h"
+#include "Kernel/Laws/Friction/CombinedLaws.h"
+#include "Kernel/Laws/Friction/Friction.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Friction/MindlinRollingTorsion.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 
 namespace pendular::scenes {
 

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "Kernel/Species/SpeciesInScene.h"
+#include "Kernel/Laws/Species/SpeciesInScene.h"
 
 namespace pendular::scenes {
 

@@ -8,8 +8,8 @@
 #include "Drivers/Shared/JoinedGrains.h"
 #include "Drivers/Shared/PenetrationScene.h"
 #include "Drivers/Shared/SettledGrains.h"
-#include "Kernel/Species/Adhesion/WetWall.h"
-#include "Kernel/Species/LawNames.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/WetWall.h"
+#include "Kernel/Laws/Species/LawNames.h"
 
 namespace pendular::scenes {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 
 namespace pendular {
 

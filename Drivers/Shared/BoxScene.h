@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "Drivers/Shared/GrainRows.h"
-#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Scene/Simulation.h"
 
 namespace pendular::scenes {
 

@@ -5,12 +5,12 @@
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/DescribeOptions.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Files/FileLock.h"
-#include "Kernel/Output/Hdf5Output.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/Simulation/RunControl.h"
-#include "Kernel/Species/Field.h"
-#include "Kernel/State/RestartFile.h"
+#include "Kernel/Analysis/Output/Hdf5Output.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Core/Run/RunControl.h"
+#include "Kernel/Foundation/Files/FileLock.h"
+#include "Kernel/Foundation/State/RestartFile.h"
+#include "Kernel/Laws/Concepts/Field.h"
 
 namespace pendular {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "Drivers/Shared/RunOptions.h"
-#include "Kernel/Species/Field.h"
+#include "Kernel/Laws/Concepts/Field.h"
 
 namespace CLI {
 class App;

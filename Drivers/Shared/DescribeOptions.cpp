@@ -16,7 +16,7 @@
 
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/CommandLineLibrary.h"
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 
 namespace pendular {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "Kernel/Walls/TriangleReader.h"
+#include "Kernel/Features/Meshes/TriangleReader.h"
 
 namespace CLI {
 class App;

@@ -3,8 +3,8 @@
 #include <functional>
 #include <vector>
 
-#include "Kernel/Particles/GrainFile.h"
-#include "Kernel/State/Random.h"
+#include "Kernel/Features/GrainFiles/GrainFile.h"
+#include "Kernel/Foundation/State/Random.h"
 
 namespace pendular {
 

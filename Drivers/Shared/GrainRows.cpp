@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Core/Particles/ParticleHandler.h"
+#include "Kernel/Foundation/Base/InputError.h"
 
 namespace pendular {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "Kernel/Particles/GrainFile.h"
-#include "Kernel/Particles/SphericalParticle.h"
+#include "Kernel/Core/Particles/SphericalParticle.h"
+#include "Kernel/Features/GrainFiles/GrainFile.h"
 
 namespace pendular {
 

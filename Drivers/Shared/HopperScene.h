@@ -6,10 +6,10 @@
 #include "Drivers/Shared/GrainRows.h"
 #include "Drivers/Shared/MeanFlow.h"
 #include "Drivers/Shared/RunOptions.h"
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Sizes/SizeLaws.h"
-#include "Kernel/Species/Laws.h"
-#include "Kernel/Walls/AxisymmetricWall.h"
+#include "Kernel/Features/CurvedWalls/AxisymmetricWall.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Scene/Simulation.h"
 
 namespace pendular {
 

@@ -6,12 +6,12 @@
 #include <numeric>
 #include <vector>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Contacts/NeighbourSearch.h"
-#include "Kernel/Particles/BodyHandler.h"
-#include "Kernel/Particles/ParticleHandler.h"
-#include "Kernel/Particles/PeriodicBox.h"
-#include "Kernel/Simulation/Scene.h"
+#include "Kernel/Core/Contacts/NeighbourSearch.h"
+#include "Kernel/Core/Particles/ParticleHandler.h"
+#include "Kernel/Core/Particles/PeriodicBox.h"
+#include "Kernel/Features/RigidBodies/BodyHandler.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Scene/Scene.h"
 
 namespace pendular::scenes {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "Kernel/Particles/ClumpTemplate.h"
+#include "Kernel/Features/RigidBodies/ClumpTemplate.h"
 
 namespace pendular {
 class Scene;

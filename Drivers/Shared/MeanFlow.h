@@ -5,8 +5,8 @@
 #include <span>
 
 #include "Drivers/Shared/Beverloo.h"
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Species/Field.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Laws/Concepts/Field.h"
 
 namespace pendular {
 

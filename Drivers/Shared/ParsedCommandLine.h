@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "Drivers/Shared/CommandLineLibrary.h"
-#include "Kernel/Base/SilentRank.h"
-#include "Kernel/Species/LawNames.h"
+#include "Kernel/Foundation/Base/SilentRank.h"
+#include "Kernel/Laws/Species/LawNames.h"
 
 namespace pendular {
 

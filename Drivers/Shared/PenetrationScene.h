@@ -7,7 +7,7 @@
 #include "Drivers/Shared/GrainLattice.h"
 #include "Drivers/Shared/PublishedScene.h"
 #include "Drivers/Shared/RunOptions.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
 
 namespace pendular {
 

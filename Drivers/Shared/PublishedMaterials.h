@@ -3,9 +3,9 @@
 #include <array>
 #include <cmath>
 
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/SpeciesHandler.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Species/SpeciesHandler.h"
 
 namespace pendular {
 

@@ -8,12 +8,12 @@
 
 #include "Drivers/Shared/GrainRows.h"
 #include "Drivers/Shared/PublishedMaterials.h"
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Motion/StabilityLimit.h"
-#include "Kernel/Particles/GrainSums.h"
-#include "Kernel/Simulation/SceneCheck.h"
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Core/Motion/StabilityLimit.h"
+#include "Kernel/Features/EnergyLedger/GrainSums.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Scene/SceneCheck.h"
+#include "Kernel/Scene/Simulation.h"
 
 namespace pendular {
 

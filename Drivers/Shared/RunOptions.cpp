@@ -14,15 +14,15 @@
 #include <utility>
 #include <vector>
 
-#include "Kernel/Files/FileFault.h"
-#include "Kernel/Files/OwnFile.h"
-#include "Kernel/Output/EnergyFile.h"
-#include "Kernel/Output/Hdf5Output.h"
-#include "Kernel/Output/ParaViewOutput.h"
-#include "Kernel/Output/WallForceFile.h"
-#include "Kernel/Simulation/RunSummary.h"
-#include "Kernel/Simulation/Scene.h"
-#include "Kernel/State/RestartFile.h"
+#include "Kernel/Analysis/Output/EnergyFile.h"
+#include "Kernel/Analysis/Output/Hdf5Output.h"
+#include "Kernel/Analysis/Output/ParaViewOutput.h"
+#include "Kernel/Analysis/Output/RunSummary.h"
+#include "Kernel/Analysis/Output/WallForceFile.h"
+#include "Kernel/Foundation/Files/FileFault.h"
+#include "Kernel/Foundation/Files/OwnFile.h"
+#include "Kernel/Foundation/State/RestartFile.h"
+#include "Kernel/Scene/Scene.h"
 
 namespace pendular {
 

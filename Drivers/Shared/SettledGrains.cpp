@@ -6,14 +6,14 @@
 #include <cmath>
 
 #include "Drivers/Shared/GrainLattice.h"
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Files/FileFault.h"
-#include "Kernel/Particles/GrainFile.h"
-#include "Kernel/Particles/GrainSums.h"
-#include "Kernel/Species/Adhesion/NoAdhesion.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/State/Random.h"
+#include "Kernel/Features/EnergyLedger/GrainSums.h"
+#include "Kernel/Features/GrainFiles/GrainFile.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Files/FileFault.h"
+#include "Kernel/Foundation/State/Random.h"
+#include "Kernel/Laws/Adhesion/NoAdhesion.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
 
 namespace pendular::scenes {
 

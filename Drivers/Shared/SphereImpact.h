@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Scene/Simulation.h"
 
 namespace pendular::scenes {
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "Drivers/Shared/GrainLattice.h"
+#include "Kernel/Features/CurvedWalls/InfiniteCylinder.h"
 #include "Kernel/MercuryNames.h"
-#include "Kernel/Walls/InfiniteCylinder.h"
 
 namespace pendular {
 

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "Drivers/Shared/RunOptions.h"
-#include "Kernel/CoarseGraining/MeanStress.h"
-#include "Kernel/Contacts/ObservedContact.h"
-#include "Kernel/Particles/PeriodicBox.h"
+#include "Kernel/Analysis/Observables/MeanStress.h"
+#include "Kernel/Core/Contacts/ObservedContact.h"
+#include "Kernel/Core/Particles/PeriodicBox.h"
 
 namespace pendular {
 

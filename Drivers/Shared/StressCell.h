@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <string>
 
+#include "Kernel/Analysis/Output/RunTable.h"
+#include "Kernel/Foundation/State/Random.h"
 #include "Kernel/MercuryNames.h"
-#include "Kernel/Output/RunTable.h"
-#include "Kernel/State/Random.h"
 
 namespace pendular {
 

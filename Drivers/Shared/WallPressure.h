@@ -2,8 +2,8 @@
 
 #include <numbers>
 
-#include "Kernel/Files/CsvFile.h"
-#include "Kernel/Simulation/Scene.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
+#include "Kernel/Scene/Scene.h"
 
 namespace pendular {
 

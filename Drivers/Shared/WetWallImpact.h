@@ -5,13 +5,13 @@
 #include <numbers>
 #include <string_view>
 
-#include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Species/Adhesion/WetWall.h"
-#include "Kernel/Species/Friction/MindlinSecant.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/Shared/ContactTime.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/WetWall.h"
+#include "Kernel/Laws/Friction/MindlinSecant.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/Shared/ContactTime.h"
+#include "Kernel/Scene/Simulation.h"
 
 namespace pendular::scenes {
 

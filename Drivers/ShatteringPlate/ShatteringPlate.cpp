@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "Drivers/Shared/CommandLine.h"
-#include "Kernel/Parts/BondPart.h"
-#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Features/Bonds/BondPart.h"
+#include "Kernel/Scene/Simulation.h"
 
 using namespace pendular;
 

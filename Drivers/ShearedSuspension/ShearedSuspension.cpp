@@ -5,10 +5,10 @@
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/ShearedSuspension/SuspensionLaws.h"
-#include "Kernel/CoarseGraining/Clusters.h"
+#include "Kernel/Analysis/Observables/Clusters.h"
+#include "Kernel/Analysis/Output/RunTable.h"
+#include "Kernel/Foundation/State/Random.h"
 #include "Kernel/MercuryNames.h"
-#include "Kernel/Output/RunTable.h"
-#include "Kernel/State/Random.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "Kernel/Species/Adhesion/LiquidBridgeClassicalWillett.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeYoungLaplace.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeClassicalWillett.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeYoungLaplace.h"
 
 namespace pendular {
 

@@ -3,11 +3,11 @@
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/WallPressure.h"
+#include "Kernel/Analysis/Output/GrainFlowFiles.h"
+#include "Kernel/Features/CurvedWalls/InfiniteCylinder.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Features/SizeDistributions/SizeTable.h"
 #include "Kernel/MercuryNames.h"
-#include "Kernel/Output/GrainFlowFiles.h"
-#include "Kernel/Sizes/SizeLaws.h"
-#include "Kernel/Sizes/SizeTable.h"
-#include "Kernel/Walls/InfiniteCylinder.h"
 
 namespace {
 

@@ -4,9 +4,9 @@
 
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/SplitCylinder.h"
-#include "Kernel/CoarseGraining/FieldSums.h"
-#include "Kernel/CoarseGraining/SceneState.h"
-#include "Kernel/Output/RunTable.h"
+#include "Kernel/Analysis/CoarseGraining/FieldSums.h"
+#include "Kernel/Analysis/CoarseGraining/SceneState.h"
+#include "Kernel/Analysis/Output/RunTable.h"
 
 namespace {
 

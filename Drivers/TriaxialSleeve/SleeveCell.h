@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "Drivers/Shared/StressCell.h"
-#include "Kernel/Insertion/Insertion.h"
-#include "Kernel/Sizes/SizeLaws.h"
-#include "Kernel/Walls/InfiniteWall.h"
-#include "Kernel/Walls/Membrane.h"
+#include "Kernel/Core/Walls/InfiniteWall.h"
+#include "Kernel/Features/Insertion/Insertion.h"
+#include "Kernel/Features/Membranes/Membrane.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
 
 namespace pendular {
 

@@ -4,12 +4,12 @@
 
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/CommandLineLibrary.h"
-#include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Output/RunTable.h"
-#include "Kernel/Simulation/BridgeAdvice.h"
-#include "Kernel/Species/BridgeLaws.h"
-#include "Kernel/Species/LawNames.h"
+#include "Kernel/Analysis/Output/RunTable.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Laws/Species/LawNames.h"
+#include "Kernel/Scene/BridgeAdvice.h"
+#include "Kernel/Scene/BridgeLaws.h"
 
 using namespace pendular;
 

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "Drivers/Shared/CommandLine.h"
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Scene/Simulation.h"
 
 using namespace pendular;
 

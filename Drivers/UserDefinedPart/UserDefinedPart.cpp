@@ -4,10 +4,10 @@
 #include <numbers>
 
 #include "Drivers/Shared/CommandLine.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/State/StateArchive.h"
-#include "Kernel/Step/SummaryRows.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Core/Step/SummaryRows.h"
+#include "Kernel/Foundation/State/StateArchive.h"
+#include "Kernel/Scene/Simulation.h"
 
 using namespace pendular;
 

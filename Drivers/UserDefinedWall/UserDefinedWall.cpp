@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "Drivers/Shared/CommandLine.h"
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/State/StateArchive.h"
+#include "Kernel/Foundation/State/StateArchive.h"
+#include "Kernel/Scene/Simulation.h"
 
 using namespace pendular;
 

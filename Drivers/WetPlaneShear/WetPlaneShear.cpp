@@ -9,10 +9,10 @@
 
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/GrainLattice.h"
-#include "Kernel/Base/FullStop.h"
-#include "Kernel/Base/RunError.h"
+#include "Kernel/Analysis/Output/RunTable.h"
+#include "Kernel/Foundation/Base/FullStop.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "Kernel/MercuryNames.h"
-#include "Kernel/Output/RunTable.h"
 
 namespace {
 

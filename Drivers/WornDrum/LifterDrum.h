@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "Kernel/Walls/TriangleReader.h"
+#include "Kernel/Features/Meshes/TriangleReader.h"
 
 namespace pendular {
 

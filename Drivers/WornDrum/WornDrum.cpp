@@ -3,9 +3,9 @@
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/GrainLattice.h"
 #include "Drivers/WornDrum/LifterDrum.h"
+#include "Kernel/Analysis/Output/RunTable.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
 #include "Kernel/MercuryNames.h"
-#include "Kernel/Output/RunTable.h"
-#include "Kernel/Walls/TriangleWall.h"
 
 namespace {
 

@@ -3,10 +3,10 @@
 #include <array>
 
 #include "Drivers/Shared/CommandLine.h"
+#include "Kernel/Analysis/Output/RunTable.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
+#include "Kernel/Foundation/State/Random.h"
 #include "Kernel/MercuryNames.h"
-#include "Kernel/Output/RunTable.h"
-#include "Kernel/State/Random.h"
-#include "Kernel/Walls/TriangleWall.h"
 
 namespace {
 

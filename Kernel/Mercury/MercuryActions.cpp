@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/State/StateArchive.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/State/StateArchive.h"
 
 namespace pendular {
 

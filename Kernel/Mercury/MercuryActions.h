@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "Kernel/Step/StepPart.h"
+#include "Kernel/Core/Step/StepPart.h"
 
 namespace pendular {
 

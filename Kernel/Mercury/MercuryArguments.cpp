@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "Kernel/Files/TextFile.h"
+#include "Kernel/Foundation/Files/TextFile.h"
 
 namespace pendular {
 namespace {

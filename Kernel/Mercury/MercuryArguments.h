@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "Kernel/Simulation/Run.h"
+#include "Kernel/Core/Run/Run.h"
 
 namespace pendular {
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <string>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Motion/Integrator.h"
-#include "Kernel/Species/Adhesion/Bonded.h"
-#include "Kernel/State/StateArchive.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Core/Motion/Integrator.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/State/StateArchive.h"
+#include "Kernel/Laws/Adhesion/Bonded.h"
 
 namespace pendular {
 

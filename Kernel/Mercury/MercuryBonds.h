@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "Kernel/Contacts/ObservedContact.h"
-#include "Kernel/Step/StepPart.h"
+#include "Kernel/Core/Contacts/ObservedContact.h"
+#include "Kernel/Core/Step/StepPart.h"
 
 namespace pendular {
 

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "Kernel/Features/GhostImages/GrainCopies.h"
 #include "Kernel/Mercury/MercuryActions.h"
 #include "Kernel/Mercury/MercuryInsertion.h"
-#include "Kernel/Parts/GrainCopies.h"
-#include "Kernel/Simulation/Scene.h"
+#include "Kernel/Scene/Scene.h"
 
 // MercuryDPM's boundaries, as far as the kernel has what they do: each is handed to it when it is both added
 // and set, in whichever order. What is set after that is refused.

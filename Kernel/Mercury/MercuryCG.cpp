@@ -6,12 +6,12 @@
 #include <cmath>
 #include <utility>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/CoarseGraining/SceneState.h"
-#include "Kernel/Math/ExactSum.h"
-#include "Kernel/Simulation/Scene.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Field.h"
+#include "Kernel/Analysis/CoarseGraining/SceneState.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Math/ExactSum.h"
+#include "Kernel/Laws/Concepts/Field.h"
+#include "Kernel/Scene/Scene.h"
+#include "Kernel/Scene/StateHash.h"
 
 namespace pendular {
 namespace {

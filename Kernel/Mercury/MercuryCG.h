@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "Kernel/CoarseGraining/FieldSums.h"
+#include "Kernel/Analysis/CoarseGraining/FieldSums.h"
+#include "Kernel/Core/Particles/SphericalParticle.h"
 #include "Kernel/Mercury/MercuryFiles.h"
-#include "Kernel/Particles/SphericalParticle.h"
-#include "Kernel/Simulation/DomainBox.h"
+#include "Kernel/Scene/DomainBox.h"
 
 // MercuryDPM's coarse graining in the code of a driver: CG<CGCoordinates::Z, CGFunctions::Gauss>(width, n) in
 // a scene's cgHandler. Each hands over to FieldSums, without a file. As there, grains that are held count as

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "Kernel/Insertion/Insertion.h"
-#include "Kernel/Sizes/SizeTable.h"
+#include "Kernel/Features/Insertion/Insertion.h"
+#include "Kernel/Features/SizeDistributions/SizeTable.h"
 
 namespace pendular {
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "Kernel/Insertion/Region.h"
+#include "Kernel/Features/Insertion/Region.h"
 #include "Kernel/MercuryScene.h"
 
 /// What lies at the bottom of a Chute.

@@ -6,7 +6,7 @@
 #include "Kernel/Mercury/MercuryBoundaries.h"
 
 // MercuryDPM's boundaries at which a scene goes on in another way than setPeriodic() has it: by copies of
-// grains (Kernel/Parts/GrainCopies.h).
+// grains (Kernel/Features/GhostImages/GrainCopies.h).
 
 namespace pendular {
 

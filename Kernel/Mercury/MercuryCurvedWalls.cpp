@@ -9,7 +9,7 @@
 #include <numbers>
 #include <unsupported/Eigen/Splines>
 
-#include "Kernel/Species/Field.h"
+#include "Kernel/Laws/Concepts/Field.h"
 
 namespace pendular {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "Kernel/Walls/CurvedSheet.h"
+#include "Kernel/Features/CurvedWalls/CurvedSheet.h"
 
 // MercuryDPM's walls by a formula, as CurvedSheet has them: NURBS, screws, coils.
 

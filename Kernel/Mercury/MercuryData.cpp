@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "Kernel/Files/TextFile.h"
+#include "Kernel/Foundation/Files/TextFile.h"
 
 namespace pendular {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "Kernel/Particles/GrainFile.h"
+#include "Kernel/Features/GrainFiles/GrainFile.h"
 
 namespace pendular {
 

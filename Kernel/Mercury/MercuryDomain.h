@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Kernel/Simulation/DomainBox.h"
+#include "Kernel/Scene/DomainBox.h"
 
 namespace pendular {
 

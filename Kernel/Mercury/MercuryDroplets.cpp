@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "Kernel/Insertion/WallGap.h"
-#include "Kernel/State/StateArchive.h"
+#include "Kernel/Features/Insertion/WallGap.h"
+#include "Kernel/Foundation/State/StateArchive.h"
 
 namespace pendular {
 

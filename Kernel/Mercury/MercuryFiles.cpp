@@ -5,8 +5,8 @@
 #include <set>
 #include <utility>
 
-#include "Kernel/Output/ParaViewOutput.h"
-#include "Kernel/Simulation/Scene.h"
+#include "Kernel/Analysis/Output/ParaViewOutput.h"
+#include "Kernel/Scene/Scene.h"
 
 namespace pendular {
 

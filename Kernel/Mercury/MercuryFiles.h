@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
-#include "Kernel/Output/MercuryOutput.h"
-#include "Kernel/State/Random.h"
+#include "Kernel/Foundation/State/Random.h"
+#include "Kernel/Mercury/MercuryOutput.h"
 
 namespace pendular {
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Energy/EnergyLedger.h"
-#include "Kernel/Math/EigenConversion.h"
-#include "Kernel/Motion/Integrator.h"
-#include "Kernel/State/StateArchive.h"
+#include "Kernel/Core/Motion/Integrator.h"
+#include "Kernel/Features/EnergyLedger/EnergyLedger.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Math/EigenConversion.h"
+#include "Kernel/Foundation/State/StateArchive.h"
 
 namespace pendular {
 

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Files/FileFault.h"
-#include "Kernel/Files/TextFile.h"
-#include "Kernel/Species/Field.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Foundation/Files/FileFault.h"
+#include "Kernel/Foundation/Files/TextFile.h"
+#include "Kernel/Laws/Concepts/Field.h"
 
 namespace helpers {
 

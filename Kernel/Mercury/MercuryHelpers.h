@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "Kernel/Particles/SphericalParticle.h"
+#include "Kernel/Core/Particles/SphericalParticle.h"
 
 // MercuryDPM's namespaces of small functions, as far as its public programs call them.
 

@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <string>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Base/Logger.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Contacts/MemoryColumns.h"
-#include "Kernel/Motion/Integrator.h"
-#include "Kernel/Species/Friction/Friction.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Friction/MindlinRollingTorsion.h"
-#include "Kernel/Species/Friction/SlidingFriction.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Core/Contacts/MemoryColumns.h"
+#include "Kernel/Core/Motion/Integrator.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Base/Logger.h"
+#include "Kernel/Laws/Friction/Friction.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Friction/MindlinRollingTorsion.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
 
 namespace pendular {
 namespace {

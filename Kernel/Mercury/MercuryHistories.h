@@ -5,8 +5,8 @@
 #include <tuple>
 #include <vector>
 
-#include "Kernel/Contacts/ObservedContact.h"
-#include "Kernel/Step/StepPart.h"
+#include "Kernel/Core/Contacts/ObservedContact.h"
+#include "Kernel/Core/Step/StepPart.h"
 
 namespace pendular {
 

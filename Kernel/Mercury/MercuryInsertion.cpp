@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Insertion/SphereGrid.h"
-#include "Kernel/Insertion/WallGap.h"
-#include "Kernel/Math/EigenConversion.h"
-#include "Kernel/Simulation/Scene.h"
-#include "Kernel/State/StateArchive.h"
+#include "Kernel/Features/Insertion/SphereGrid.h"
+#include "Kernel/Features/Insertion/WallGap.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Math/EigenConversion.h"
+#include "Kernel/Foundation/State/StateArchive.h"
+#include "Kernel/Scene/Scene.h"
 
 namespace pendular {
 

@@ -6,12 +6,12 @@
 #include <optional>
 #include <vector>
 
-#include "Kernel/Insertion/BodyMixture.h"
-#include "Kernel/Particles/ParticleHandler.h"
-#include "Kernel/Sizes/SizeDistribution.h"
-#include "Kernel/State/Random.h"
-#include "Kernel/Step/StepPart.h"
-#include "Kernel/Walls/BoxTree.h"
+#include "Kernel/Core/Particles/ParticleHandler.h"
+#include "Kernel/Core/Step/StepPart.h"
+#include "Kernel/Features/Insertion/BodyMixture.h"
+#include "Kernel/Features/SizeDistributions/SizeDistribution.h"
+#include "Kernel/Foundation/Math/BoxTree.h"
+#include "Kernel/Foundation/State/Random.h"
 
 namespace pendular {
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Sizes/SizeTable.h"
+#include "Kernel/Features/SizeDistributions/SizeTable.h"
+#include "Kernel/Foundation/Base/InputError.h"
 
 namespace pendular {
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Foundation/Base/InputError.h"
 
 namespace pendular {
 

@@ -4,12 +4,12 @@
 #include <memory>
 #include <vector>
 
-#include "Kernel/Contacts/ObservedContact.h"
-#include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Core/Contacts/ObservedContact.h"
+#include "Kernel/Core/Particles/SphericalParticle.h"
+#include "Kernel/Foundation/Math/EigenConversion.h"
 #include "Kernel/Mercury/MercuryBonds.h"
 #include "Kernel/Mercury/MercuryFiles.h"
-#include "Kernel/Particles/SphericalParticle.h"
-#include "Kernel/Simulation/Scene.h"
+#include "Kernel/Scene/Scene.h"
 
 namespace pendular {
 

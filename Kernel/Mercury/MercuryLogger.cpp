@@ -1,6 +1,6 @@
 #include "Kernel/Mercury/MercuryLogger.h"
 
-#include "Kernel/Base/RunError.h"
+#include "Kernel/Foundation/Base/RunError.h"
 
 namespace pendular {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "Kernel/Base/Logger.h"
+#include "Kernel/Foundation/Base/Logger.h"
 
 namespace pendular {
 

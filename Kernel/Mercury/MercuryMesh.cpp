@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "Kernel/Walls/PolygonMesh.h"
+#include "Kernel/Features/Meshes/PolygonMesh.h"
 
 namespace pendular {
 namespace {

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "Kernel/Particles/SphericalParticle.h"
-#include "Kernel/Walls/TriangleReader.h"
+#include "Kernel/Core/Particles/SphericalParticle.h"
+#include "Kernel/Features/Meshes/TriangleReader.h"
 
 namespace pendular {
 

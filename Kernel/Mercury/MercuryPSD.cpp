@@ -8,10 +8,10 @@
 #include <string_view>
 #include <utility>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Files/TextFile.h"
-#include "Kernel/Sizes/SizeLaws.h"
-#include "Kernel/Sizes/SizeTable.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Features/SizeDistributions/SizeTable.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Files/TextFile.h"
 
 namespace pendular {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "Kernel/Sizes/SizeDistribution.h"
-#include "Kernel/State/Random.h"
+#include "Kernel/Features/SizeDistributions/SizeDistribution.h"
+#include "Kernel/Foundation/State/Random.h"
 
 namespace pendular {
 

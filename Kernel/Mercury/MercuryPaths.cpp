@@ -4,9 +4,9 @@
 
 #include <utility>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Math/EigenConversion.h"
-#include "Kernel/State/StateArchive.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Math/EigenConversion.h"
+#include "Kernel/Foundation/State/StateArchive.h"
 
 namespace pendular {
 

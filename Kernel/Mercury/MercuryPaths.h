@@ -3,8 +3,8 @@
 #include <functional>
 #include <map>
 
-#include "Kernel/Particles/ParticleHandler.h"
-#include "Kernel/Step/StepPart.h"
+#include "Kernel/Core/Particles/ParticleHandler.h"
+#include "Kernel/Core/Step/StepPart.h"
 
 namespace pendular {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 
 namespace pendular {
 

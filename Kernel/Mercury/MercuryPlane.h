@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Core/Particles/ParticleHandler.h"
 
 namespace pendular {
 

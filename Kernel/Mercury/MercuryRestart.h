@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "Kernel/Particles/GrainFile.h"
-#include "Kernel/Walls/IntersectionOfHalfSpaces.h"
+#include "Kernel/Features/GrainFiles/GrainFile.h"
+#include "Kernel/Features/Meshes/IntersectionOfHalfSpaces.h"
 
 namespace pendular {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "Kernel/Files/TextFile.h"
-#include "Kernel/Particles/SphericalParticle.h"
+#include "Kernel/Core/Particles/SphericalParticle.h"
+#include "Kernel/Foundation/Files/TextFile.h"
 
 namespace pendular {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string_view>
 
-#include "Kernel/Species/LawNames.h"
+#include "Kernel/Laws/Species/LawNames.h"
 
 namespace pendular {
 namespace {

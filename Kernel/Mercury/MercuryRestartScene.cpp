@@ -6,10 +6,10 @@
 #include <cmath>
 #include <filesystem>
 
-#include "Kernel/Base/FullStop.h"
-#include "Kernel/Contacts/SpeciesRegistry.h"
-#include "Kernel/Files/FileName.h"
-#include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Features/SpeciesByName/SpeciesRegistry.h"
+#include "Kernel/Foundation/Base/FullStop.h"
+#include "Kernel/Foundation/Files/FileName.h"
+#include "Kernel/Foundation/Math/EigenConversion.h"
 #include "Kernel/Mercury/MercuryRestartLines.h"
 
 namespace pendular {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "Kernel/Base/Logger.h"
-#include "Kernel/Contacts/SeveralSpeciesHandler.h"
+#include "Kernel/Features/SpeciesByName/SeveralSpeciesHandler.h"
+#include "Kernel/Foundation/Base/Logger.h"
 #include "Kernel/Mercury/MercuryBonds.h"
 #include "Kernel/Mercury/MercuryBoundaries.h"
 #include "Kernel/Mercury/MercuryHistories.h"

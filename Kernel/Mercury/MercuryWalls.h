@@ -7,13 +7,13 @@
 #include <type_traits>
 #include <vector>
 
+#include "Kernel/Core/Walls/WallHandler.h"
+#include "Kernel/Features/CurvedWalls/AxisymmetricWall.h"
+#include "Kernel/Features/Meshes/IntersectionOfHalfSpaces.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
 #include "Kernel/Mercury/MercuryDomain.h"
 #include "Kernel/Mercury/MercuryFiles.h"
 #include "Kernel/Mercury/MercuryMesh.h"
-#include "Kernel/Walls/AxisymmetricWall.h"
-#include "Kernel/Walls/IntersectionOfHalfSpaces.h"
-#include "Kernel/Walls/TriangleWall.h"
-#include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
 

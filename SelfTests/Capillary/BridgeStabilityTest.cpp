@@ -2,7 +2,7 @@
 // the second derivatives of E - p V on the displacements that keep the volume. Contact points move along
 // their bodies.
 
-#include "Kernel/Capillary/BridgeStability.h"
+#include "Kernel/Features/LiquidBridges/YoungLaplace/BridgeStability.h"
 
 #include <gtest/gtest.h>
 

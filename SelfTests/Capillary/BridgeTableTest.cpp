@@ -1,4 +1,4 @@
-#include "Kernel/Capillary/BridgeTable.h"
+#include "Kernel/Features/LiquidBridges/YoungLaplace/BridgeTable.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Capillary/BridgeTableMaking.h"
+#include "Kernel/Features/LiquidBridges/YoungLaplace/BridgeTableMaking.h"
 #include "SelfTests/Capillary/RandomBridges.h"
 
 // The table of exact bridges against the solver: that it is the solver's work, and how near it comes between

@@ -1,4 +1,4 @@
-#include "Kernel/Capillary/CapillaryBridge.h"
+#include "Kernel/Features/LiquidBridges/YoungLaplace/CapillaryBridge.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 #include "SelfTests/Capillary/IndependentBridges.h"
 #include "SelfTests/Capillary/RandomBridges.h"
 

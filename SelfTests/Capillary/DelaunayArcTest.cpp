@@ -1,4 +1,4 @@
-#include "Kernel/Capillary/DelaunayArc.h"
+#include "Kernel/Features/LiquidBridges/YoungLaplace/DelaunayArc.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "Kernel/Math/GaussLegendre.h"
+#include "Kernel/Foundation/Math/GaussLegendre.h"
 
 namespace pendular::delaunayArcTest {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "Kernel/Capillary/BridgeEquations.h"
+#include "Kernel/Features/LiquidBridges/YoungLaplace/BridgeEquations.h"
 
 namespace pendular {
 

@@ -5,12 +5,12 @@
 #include <numbers>
 #include <regex>
 
-#include "Kernel/Capillary/CapillaryBridge.h"
-#include "Kernel/Capillary/FreeDrop.h"
+#include "Kernel/Features/LiquidBridges/YoungLaplace/CapillaryBridge.h"
 #include "SelfTests/Capillary/EvolverInput.h"
 #include "SelfTests/Capillary/RandomBridges.h"
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TestFolder.h"
+#include "Tools/Reference/FreeDrop.h"
 
 // Bridges on and off the axis against Surface Evolver, which minimises their energy and knows neither the
 // Young-Laplace equation of a bridge on the axis nor that one off it is a sphere.

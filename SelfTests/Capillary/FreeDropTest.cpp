@@ -1,4 +1,4 @@
-#include "Kernel/Capillary/FreeDrop.h"
+#include "Tools/Reference/FreeDrop.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Capillary/CapillaryBridge.h"
-#include "Kernel/Math/Scalar.h"
+#include "Kernel/Features/LiquidBridges/YoungLaplace/CapillaryBridge.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Math/Scalar.h"
 #include "SelfTests/Capillary/RandomBridges.h"
 
 namespace pendular::freeDropTest {

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "Kernel/Capillary/CapillaryBridge.h"
+#include "Kernel/Features/LiquidBridges/YoungLaplace/CapillaryBridge.h"
 
 namespace pendular {
 

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <string>
 
-#include "Kernel/CoarseGraining/FieldSums.h"
-#include "Kernel/State/Random.h"
+#include "Kernel/Analysis/CoarseGraining/FieldSums.h"
+#include "Kernel/Foundation/State/Random.h"
 
 namespace pendular::axisFieldsTest {
 namespace {

@@ -1,4 +1,4 @@
-#include "Kernel/CoarseGraining/Clusters.h"
+#include "Kernel/Analysis/Observables/Clusters.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <numbers>
 #include <numeric>
 
-#include "Kernel/Particles/LeesEdwards.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
-#include "Kernel/Species/Friction/NoFriction.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeBagheri.h"
+#include "Kernel/Features/ShearAndStrain/LeesEdwards.h"
+#include "Kernel/Laws/Friction/NoFriction.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/ShearOf.h"

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "BuildFolders.h"
-#include "Kernel/Output/ParaViewSeries.h"
-#include "Kernel/Output/PolyData.h"
+#include "Kernel/Analysis/Output/ParaViewSeries.h"
+#include "Kernel/Analysis/Output/PolyData.h"
 #include "SelfTests/Support/CsvRows.h"
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TestFolder.h"

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <tuple>
 
-#include "Kernel/CoarseGraining/FieldFiles.h"
-#include "Kernel/CoarseGraining/FieldImage.h"
-#include "Kernel/State/Hdf5File.h"
+#include "Kernel/Analysis/CoarseGraining/FieldFiles.h"
+#include "Kernel/Analysis/CoarseGraining/FieldImage.h"
+#include "Kernel/Foundation/State/Hdf5File.h"
 #include "SelfTests/Support/Dependency.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"

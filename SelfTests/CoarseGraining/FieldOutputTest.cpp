@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "BuildFolders.h"
-#include "Kernel/CoarseGraining/FieldOutput.h"
-#include "Kernel/CoarseGraining/SceneState.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Output/ParaViewOutput.h"
+#include "Kernel/Analysis/CoarseGraining/FieldOutput.h"
+#include "Kernel/Analysis/CoarseGraining/SceneState.h"
+#include "Kernel/Analysis/Output/ParaViewOutput.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
 #include "SelfTests/Restart/ChildRun.h"
 #include "SelfTests/Support/CsvRows.h"
 #include "SelfTests/Support/Dependency.h"

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <string>
 
-#include "Kernel/CoarseGraining/FieldSums.h"
-#include "Kernel/Math/GaussLegendre.h"
+#include "Kernel/Analysis/CoarseGraining/FieldSums.h"
+#include "Kernel/Foundation/Math/GaussLegendre.h"
 #include "SelfTests/Support/CsvRows.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/RunProgram.h"

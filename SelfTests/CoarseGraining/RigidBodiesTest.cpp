@@ -5,14 +5,14 @@
 
 #include <cmath>
 
-#include "Kernel/CoarseGraining/Clusters.h"
-#include "Kernel/CoarseGraining/FieldOutput.h"
-#include "Kernel/CoarseGraining/MeanStress.h"
-#include "Kernel/CoarseGraining/SceneState.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Output/SceneFields.h"
-#include "Kernel/Shapes/UnionOfSpheres.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Analysis/CoarseGraining/FieldOutput.h"
+#include "Kernel/Analysis/CoarseGraining/SceneState.h"
+#include "Kernel/Analysis/Observables/Clusters.h"
+#include "Kernel/Analysis/Observables/MeanStress.h"
+#include "Kernel/Analysis/Output/SceneFields.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/RigidBodies/UnionOfSpheres.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
 #include "SelfTests/Support/Random.h"

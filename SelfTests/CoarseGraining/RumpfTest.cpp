@@ -7,11 +7,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/CoarseGraining/FieldSums.h"
-#include "Kernel/CoarseGraining/SceneState.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
-#include "Kernel/State/Random.h"
+#include "Kernel/Analysis/CoarseGraining/FieldSums.h"
+#include "Kernel/Analysis/CoarseGraining/SceneState.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeWillett.h"
+#include "Kernel/Foundation/State/Random.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 
 namespace pendular::rumpfTest {

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Kernel/CoarseGraining/FieldSums.h"
-#include "Kernel/CoarseGraining/MeanStress.h"
-#include "Kernel/CoarseGraining/SceneState.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Output/SceneFields.h"
-#include "Kernel/Species/Friction/SlidingFriction.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Analysis/CoarseGraining/FieldSums.h"
+#include "Kernel/Analysis/CoarseGraining/SceneState.h"
+#include "Kernel/Analysis/Observables/MeanStress.h"
+#include "Kernel/Analysis/Output/SceneFields.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Random.h"
 

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Species.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Species/Species.h"
 
 struct Glue {
     static constexpr std::string_view name = "Glue";

@@ -1,7 +1,7 @@
 // expect: An output that has members lists in visitState
 // See OutputWithState.cpp for the same one, complete.
 
-#include "Kernel/Simulation/Scene.h"
+#include "Kernel/Scene/Scene.h"
 
 struct Count {
     double outputs = 0;

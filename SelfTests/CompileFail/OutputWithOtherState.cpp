@@ -1,7 +1,7 @@
 // expect: visitState.. of an output has the form visitState
 // See OutputWithState.cpp for the same one, complete.
 
-#include "Kernel/Simulation/Scene.h"
+#include "Kernel/Scene/Scene.h"
 
 struct Count {
     double outputs = 0;

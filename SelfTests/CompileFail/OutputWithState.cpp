@@ -1,7 +1,7 @@
 // expect: success
 // The output of OutputWithMisspeltState.cpp and OutputWithOtherState.cpp, as it must be.
 
-#include "Kernel/Simulation/Scene.h"
+#include "Kernel/Scene/Scene.h"
 
 struct Count {
     double outputs = 0;

@@ -1,6 +1,6 @@
 // expect: A part of the step lists what a driver sets of it in compareSetUp
 
-#include "Kernel/Simulation/Scene.h"
+#include "Kernel/Scene/Scene.h"
 
 struct Draught : pendular::StepPart {
     double speed = 1;  // m/s

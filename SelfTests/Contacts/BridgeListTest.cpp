@@ -2,12 +2,12 @@
 
 #include <set>
 
-#include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Motion/TimeIntegration.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Core/Motion/TimeIntegration.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeBagheri.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/ContactKey.h"
 

@@ -4,11 +4,11 @@
 #include <map>
 #include <tuple>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Output/SceneFields.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Analysis/Output/SceneFields.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeBagheri.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"

@@ -3,7 +3,7 @@
 #include <set>
 #include <vector>
 
-#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Quantum.h"

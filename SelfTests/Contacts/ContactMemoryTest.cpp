@@ -4,15 +4,15 @@
 #include <map>
 #include <vector>
 
-#include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Motion/TimeIntegration.h"
-#include "Kernel/Species/Adhesion/IrreversibleAdhesive.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Friction/SlidingRollingTorsion.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearPlasticViscoelastic.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Core/Motion/TimeIntegration.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeBagheri.h"
+#include "Kernel/Laws/Adhesion/IrreversibleAdhesive.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Friction/SlidingRollingTorsion.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearPlasticViscoelastic.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/ContactKey.h"
 

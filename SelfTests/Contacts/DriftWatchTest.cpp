@@ -1,4 +1,4 @@
-#include "Kernel/Contacts/DriftWatch.h"
+#include "Kernel/Core/Contacts/DriftWatch.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Foundation/Math/EigenConversion.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/ShearOf.h"
 

@@ -2,12 +2,12 @@
 
 #include <vector>
 
-#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeClassicalWillett.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeBagheri.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeClassicalWillett.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeWillett.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Quantum.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Laws.h"
 #include "SelfTests/Scenes/FewGrains.h"
 
 // Springs of friction in contacts that a bridge or a neck resists, too.

@@ -9,14 +9,14 @@
 #include <optional>
 #include <utility>
 
-#include "Kernel/Base/Logger.h"
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Parts/HeatPart.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Laws.h"
-#include "Kernel/State/Hdf5File.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/Heat/HeatPart.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
+#include "Kernel/Foundation/Base/Logger.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Foundation/State/Hdf5File.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Ranks/SharedScene.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Scenes/HookedGrains.h"

@@ -1,5 +1,5 @@
-#include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Contacts/IdleLanes.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/IdleLanes.h"
 
 #include <gtest/gtest.h>
 

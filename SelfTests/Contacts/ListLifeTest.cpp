@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "Kernel/Boundaries/Outlet.h"
-#include "Kernel/Contacts/ListLife.h"
-#include "Kernel/Insertion/Inlet.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Core/Contacts/ListLife.h"
+#include "Kernel/Features/Inlets/Inlet.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeBagheri.h"
+#include "Kernel/Features/Outlets/Outlet.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
 #include "SelfTests/Insertion/FilledScene.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Random.h"

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Friction/SlidingRollingTorsion.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Laws/Friction/SlidingRollingTorsion.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/GrainCloud.h"

@@ -1,4 +1,4 @@
-#include "Kernel/Contacts/PairOrder.h"
+#include "Kernel/Core/Contacts/PairOrder.h"
 
 #include <gtest/gtest.h>
 

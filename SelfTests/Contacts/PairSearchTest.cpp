@@ -1,4 +1,4 @@
-#include "Kernel/Contacts/PairSearch.h"
+#include "Kernel/Core/Contacts/PairSearch.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "Kernel/Contacts/NeighbourSearch.h"
-#include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Core/Contacts/NeighbourSearch.h"
+#include "Kernel/Foundation/Math/EigenConversion.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/ShearOf.h"
 

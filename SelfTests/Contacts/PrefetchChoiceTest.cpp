@@ -1,4 +1,4 @@
-#include "Kernel/Contacts/PrefetchChoice.h"
+#include "Kernel/Core/Contacts/PrefetchChoice.h"
 
 #include <gtest/gtest.h>
 

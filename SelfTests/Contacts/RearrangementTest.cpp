@@ -1,4 +1,4 @@
-#include "Kernel/Contacts/Rearrangement.h"
+#include "Kernel/Core/Contacts/Rearrangement.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
 
 namespace pendular::rearrangementTest {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
 #include "SelfTests/Scenes/FewGrains.h"
 
 // What is kept of contacts for the wear of walls takes memory for contacts with walls only.

@@ -3,11 +3,11 @@
 #include <set>
 #include <vector>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Species/Adhesion/CombinedLaws.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/CombinedLaws.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/ShearedCloud.h"
 #include "SelfTests/Support/ContactKey.h"

@@ -10,8 +10,8 @@
 #include <map>
 #include <numbers>
 
-#include "Kernel/Files/FileLock.h"
-#include "Kernel/State/Hdf5File.h"
+#include "Kernel/Foundation/Files/FileLock.h"
+#include "Kernel/Foundation/State/Hdf5File.h"
 #include "SelfTests/Drivers/DriverRun.h"
 #include "SelfTests/Support/TemporaryFile.h"
 #include "SelfTests/Support/TestFolder.h"

@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-#include "Kernel/State/Hdf5File.h"
+#include "Kernel/Foundation/State/Hdf5File.h"
 #include "SelfTests/Drivers/DriverRun.h"
 #include "SelfTests/Support/TestFolder.h"
 

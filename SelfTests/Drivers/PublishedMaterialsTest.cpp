@@ -44,8 +44,8 @@ TEST(PublishedMaterials, giveTheStiffnessAndFrictionOfEachPair) {
 }
 
 /// Head-on collisions. The kernel's error of the restitution is at most 0.06 % at e = 0.3 and 50 steps a
-/// contact (Kernel/Contacts/README.md), of second order in the step; Hertz's contact time at 1 m/s is 6 us
-/// (steel) to 42 us (M2), with this step 150 and more steps, so 0.05 % is ample.
+/// contact (Kernel/Core/Contacts/README.md), of second order in the step; Hertz's contact time at 1 m/s is 6
+/// us (steel) to 42 us (M2), with this step 150 and more steps, so 0.05 % is ample.
 TEST(PublishedMaterials, collideWithTheirRestitution) {
     for (const Pair& pair : published) {
         TwoGrains scene(pair.a, pair.b, 4e-8);

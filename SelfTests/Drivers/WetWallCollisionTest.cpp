@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "Kernel/State/Hdf5File.h"
+#include "Kernel/Foundation/State/Hdf5File.h"
 #include "SelfTests/Drivers/DriverRun.h"
 #include "SelfTests/Support/TestFolder.h"
 

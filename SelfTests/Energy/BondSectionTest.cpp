@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "Kernel/Parts/BondLaw.h"
+#include "Kernel/Features/Bonds/BondLaw.h"
 
 // The forces in the section of a bond, and when it breaks by them, where it bends in two planes at once.
 

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <vector>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Parts/BondPart.h"
-#include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Features/Bonds/BondPart.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "Kernel/Motion/Integrator.h"
+#include "Kernel/Core/Motion/Integrator.h"
 #include "SelfTests/Energy/OpenAccount.h"
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Support/AnyMaterial.h"

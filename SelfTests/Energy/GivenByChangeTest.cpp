@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/Laws.h"
 #include "SelfTests/Scenes/HookedGrains.h"
 
 namespace pendular::givenByChangeTest {

@@ -6,9 +6,9 @@
 #include <numbers>
 #include <string>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Parts/HeatPart.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Heat/HeatPart.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Parts/HeatPart.h"
+#include "Kernel/Features/Heat/HeatPart.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"

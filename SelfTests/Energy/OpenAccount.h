@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "Kernel/Simulation/Scene.h"
+#include "Kernel/Scene/Scene.h"
 
 namespace pendular::energy {
 

@@ -1,5 +1,5 @@
 // Failures of the file system are sentences with path and reason, and never those of the C++ library.
-#include "Kernel/Files/FileFault.h"
+#include "Kernel/Foundation/Files/FileFault.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <new>
 #include <vector>
 
-#include "Kernel/Files/WrittenBeside.h"
-#include "Kernel/State/RestartFile.h"
+#include "Kernel/Foundation/Files/WrittenBeside.h"
+#include "Kernel/Foundation/State/RestartFile.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "Kernel/Files/ReadingProcess.h"
+#include "Kernel/Foundation/Files/ReadingProcess.h"
 
 namespace pendular::readingProcessTest {
 namespace {

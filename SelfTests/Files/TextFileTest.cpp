@@ -4,12 +4,12 @@
 
 #include <functional>
 
-#include "Kernel/Files/FileContent.h"
-#include "Kernel/Particles/ClumpTemplate.h"
-#include "Kernel/Particles/GrainFile.h"
-#include "Kernel/Simulation/SummaryFile.h"
-#include "Kernel/Sizes/SizeTable.h"
-#include "Kernel/Walls/TriangleReader.h"
+#include "Kernel/Core/Run/SummaryFile.h"
+#include "Kernel/Features/GrainFiles/GrainFile.h"
+#include "Kernel/Features/Meshes/TriangleReader.h"
+#include "Kernel/Features/RigidBodies/ClumpTemplate.h"
+#include "Kernel/Features/SizeDistributions/SizeTable.h"
+#include "Kernel/Foundation/Files/FileContent.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TemporaryFile.h"
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "Drivers/FluidisedColumn/ColumnBed.h"
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 

@@ -1,4 +1,4 @@
-#include "Kernel/Fluid/DragLaw.h"
+#include "Kernel/Features/Fluid/DragLaw.h"
 
 #include <gtest/gtest.h>
 

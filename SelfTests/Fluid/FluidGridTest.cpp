@@ -1,4 +1,4 @@
-#include "Kernel/Fluid/FluidGrid.h"
+#include "Kernel/Features/Fluid/FluidGrid.h"
 
 #include <gtest/gtest.h>
 

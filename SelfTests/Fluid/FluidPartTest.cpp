@@ -1,13 +1,13 @@
-#include "Kernel/Fluid/FluidPart.h"
+#include "Kernel/Features/Fluid/FluidPart.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Math/EigenConversion.h"
-#include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Foundation/Math/EigenConversion.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"

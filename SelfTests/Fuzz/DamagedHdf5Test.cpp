@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "Kernel/Output/FieldFile.h"
-#include "Kernel/Output/Hdf5Frame.h"
-#include "Kernel/State/RestartFile.h"
+#include "Kernel/Analysis/Output/FieldFile.h"
+#include "Kernel/Analysis/Output/Hdf5Frame.h"
+#include "Kernel/Foundation/State/RestartFile.h"
 #include "SelfTests/Fuzz/Target.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/SharedData.h"

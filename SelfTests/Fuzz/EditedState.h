@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "Kernel/State/RestartFile.h"
+#include "Kernel/Foundation/State/RestartFile.h"
 
 namespace pendular::fuzz {
 

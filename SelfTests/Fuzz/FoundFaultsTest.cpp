@@ -1,10 +1,10 @@
 // Faults of the readers that were found by fuzzing, or on the way to it.
 #include <gtest/gtest.h>
 
-#include "Kernel/Output/PolyData.h"
-#include "Kernel/State/Random.h"
-#include "Kernel/State/RestartFile.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Analysis/Output/PolyData.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
+#include "Kernel/Foundation/State/Random.h"
+#include "Kernel/Foundation/State/RestartFile.h"
 #include "SelfTests/Fuzz/Target.h"
 #include "SelfTests/Support/Refusal.h"
 

@@ -1,7 +1,7 @@
-#include "Kernel/Output/FieldFile.h"
-#include "Kernel/Output/Hdf5Frame.h"
-#include "Kernel/State/Random.h"
-#include "Kernel/State/RestartFile.h"
+#include "Kernel/Analysis/Output/FieldFile.h"
+#include "Kernel/Analysis/Output/Hdf5Frame.h"
+#include "Kernel/Foundation/State/Random.h"
+#include "Kernel/Foundation/State/RestartFile.h"
 #include "SelfTests/Fuzz/Target.h"
 
 namespace pendular::fuzz {

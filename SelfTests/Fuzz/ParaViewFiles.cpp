@@ -1,7 +1,7 @@
-#include "Kernel/CoarseGraining/FieldFiles.h"
-#include "Kernel/CoarseGraining/FieldImage.h"
-#include "Kernel/Output/ParaViewSeries.h"
-#include "Kernel/Output/PolyData.h"
+#include "Kernel/Analysis/CoarseGraining/FieldFiles.h"
+#include "Kernel/Analysis/CoarseGraining/FieldImage.h"
+#include "Kernel/Analysis/Output/ParaViewSeries.h"
+#include "Kernel/Analysis/Output/PolyData.h"
 #include "SelfTests/Fuzz/Target.h"
 
 namespace pendular::fuzz {

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "Kernel/Files/ReadingProcess.h"
-#include "Kernel/State/Hdf5File.h"
-#include "Kernel/State/Random.h"
+#include "Kernel/Foundation/Files/ReadingProcess.h"
+#include "Kernel/Foundation/State/Hdf5File.h"
+#include "Kernel/Foundation/State/Random.h"
 #include "SelfTests/Fuzz/Target.h"
 
 namespace pendular::fuzz {

@@ -1,6 +1,6 @@
-#include "Kernel/State/RestartFile.h"
+#include "Kernel/Foundation/State/RestartFile.h"
 
-#include "Kernel/State/Random.h"
+#include "Kernel/Foundation/State/Random.h"
 #include "SelfTests/Fuzz/Target.h"
 
 namespace pendular::fuzz {

@@ -1,6 +1,6 @@
-#include "Kernel/Files/CsvFile.h"
-#include "Kernel/Simulation/SummaryFile.h"
-#include "Kernel/Step/SummaryRows.h"
+#include "Kernel/Core/Run/SummaryFile.h"
+#include "Kernel/Core/Step/SummaryRows.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
 #include "SelfTests/Fuzz/Target.h"
 
 namespace pendular::fuzz {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 #include "SelfTests/Support/TestFolder.h"
 
 namespace pendular::fuzz {

@@ -5,7 +5,7 @@
 #include <array>
 #include <bit>
 
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
 #include "SelfTests/Fuzz/Target.h"
 
 namespace pendular::fuzz {

@@ -8,13 +8,13 @@
 #include <stdexcept>
 #include <thread>
 
-#include "Kernel/Base/Host.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/Simulation/Progress.h"
-#include "Kernel/Simulation/RunControl.h"
-#include "Kernel/Sizes/SizeLaws.h"
-#include "Kernel/Species/Laws.h"
-#include "Kernel/State/Hdf5File.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Core/Run/Progress.h"
+#include "Kernel/Core/Run/RunControl.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Foundation/Base/Host.h"
+#include "Kernel/Foundation/State/Hdf5File.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/RunProgram.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "BuildFolders.h"
-#include "Kernel/Contacts/SpeciesRegistry.h"
-#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Features/SpeciesByName/SpeciesRegistry.h"
+#include "Kernel/Scene/Simulation.h"
 #include "SelfTests/Support/Refusal.h"
 
 namespace pendular::speciesLibraryTest {

@@ -1,4 +1,4 @@
-#include "Kernel/Parts/AdaptiveStep.h"
+#include "Kernel/Features/AdaptiveTimeStep/AdaptiveStep.h"
 #include "SelfTests/HowDoI/LooseGrains.h"
 
 namespace {

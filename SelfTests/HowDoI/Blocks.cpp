@@ -1,8 +1,8 @@
 #include "SelfTests/HowDoI/HowDoI.h"
 
-#include "Kernel/Simulation/SuperquadricSimulation.h"
-#include "Kernel/Species/Friction/SlidingFriction.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/SuperquadricSimulation.h"
 
 namespace {
 

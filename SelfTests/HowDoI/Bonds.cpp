@@ -1,4 +1,4 @@
-#include "Kernel/Parts/BondPart.h"
+#include "Kernel/Features/Bonds/BondPart.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "Kernel/Sizes/SizeLaws.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
 
 namespace {
 

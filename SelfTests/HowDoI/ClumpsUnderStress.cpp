@@ -1,5 +1,5 @@
-#include "Kernel/CoarseGraining/MeanStress.h"
-#include "Kernel/Sizes/SizeLaws.h"
+#include "Kernel/Analysis/Observables/MeanStress.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "Kernel/Parts/GrainCopies.h"
+#include "Kernel/Features/GhostImages/GrainCopies.h"
 
 #include <algorithm>
 #include <vector>

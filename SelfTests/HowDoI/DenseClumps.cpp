@@ -1,5 +1,5 @@
-#include "Kernel/Particles/OrientationOrder.h"
-#include "Kernel/Sizes/SizeLaws.h"
+#include "Kernel/Features/RigidBodies/OrientationOrder.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

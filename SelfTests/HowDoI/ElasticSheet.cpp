@@ -1,4 +1,4 @@
-#include "Kernel/Walls/Membrane.h"
+#include "Kernel/Features/Membranes/Membrane.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

@@ -1,5 +1,5 @@
-#include "Kernel/Fluid/ColumnFlow.h"
-#include "Kernel/Fluid/FluidPart.h"
+#include "Kernel/Features/Fluid/ColumnFlow.h"
+#include "Kernel/Features/Fluid/FluidPart.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "Kernel/Sizes/SizeLaws.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

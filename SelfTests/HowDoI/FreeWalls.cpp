@@ -1,5 +1,5 @@
-#include "Kernel/Walls/AxisymmetricWall.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Features/CurvedWalls/AxisymmetricWall.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

@@ -1,5 +1,5 @@
-#include "Kernel/Walls/AxisymmetricWall.h"
-#include "Kernel/Walls/InfiniteCylinder.h"
+#include "Kernel/Features/CurvedWalls/AxisymmetricWall.h"
+#include "Kernel/Features/CurvedWalls/InfiniteCylinder.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "Kernel/Particles/GrainFile.h"
+#include "Kernel/Features/GrainFiles/GrainFile.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

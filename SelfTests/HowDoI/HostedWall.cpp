@@ -1,4 +1,4 @@
-#include "Kernel/Walls/HostWall.h"
+#include "Kernel/Features/Membranes/HostWall.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "Kernel/State/Hdf5File.h"
+#include "Kernel/Foundation/State/Hdf5File.h"
 #include "SelfTests/HowDoI/FirstDriver.cpp"  // NOLINT(bugprone-suspicious-include): others derive from it
 #include "SelfTests/Support/TestFolder.h"
 

@@ -1,4 +1,4 @@
-#include "Kernel/Simulation/SoftestModulus.h"
+#include "Kernel/Scene/TimeStep/SoftestModulus.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

@@ -1,5 +1,5 @@
-#include "Kernel/Output/GrainFlowFiles.h"
-#include "Kernel/Sizes/SizeLaws.h"
+#include "Kernel/Analysis/Output/GrainFlowFiles.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

@@ -1,6 +1,6 @@
 #include <fstream>
 
-#include "Kernel/Particles/GrainFile.h"
+#include "Kernel/Features/GrainFiles/GrainFile.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

@@ -1,5 +1,5 @@
-#include "Kernel/Base/Parallel.h"
-#include "Kernel/Simulation/Collisions.h"
+#include "Kernel/Foundation/Base/Parallel.h"
+#include "Kernel/Scene/Collisions.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "Kernel/State/Random.h"
+#include "Kernel/Foundation/State/Random.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
 #include "SelfTests/HowDoI/DrumFile.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 

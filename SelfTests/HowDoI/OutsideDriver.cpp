@@ -1,4 +1,4 @@
-#include "Kernel/Simulation/Program.h"
+#include "Kernel/Core/Run/Program.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

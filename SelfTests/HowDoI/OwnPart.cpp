@@ -1,4 +1,4 @@
-#include "Kernel/Step/SummaryRows.h"
+#include "Kernel/Core/Step/SummaryRows.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

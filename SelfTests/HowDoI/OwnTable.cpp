@@ -1,4 +1,4 @@
-#include "Kernel/Output/RunTable.h"
+#include "Kernel/Analysis/Output/RunTable.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 #include "SelfTests/Support/RunProgram.h"
 

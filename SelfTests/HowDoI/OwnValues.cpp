@@ -1,4 +1,4 @@
-#include "Kernel/Output/ParaViewOutput.h"
+#include "Kernel/Analysis/Output/ParaViewOutput.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 #include "SelfTests/Support/RunProgram.h"
 

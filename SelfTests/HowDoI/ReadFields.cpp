@@ -1,4 +1,4 @@
-#include "Kernel/CoarseGraining/FieldOutput.h"
+#include "Kernel/Analysis/CoarseGraining/FieldOutput.h"
 #include "SelfTests/HowDoI/LooseGrains.h"
 #include "SelfTests/Support/CsvRows.h"
 #include "SelfTests/Support/RunProgram.h"

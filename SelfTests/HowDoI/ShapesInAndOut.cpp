@@ -1,9 +1,9 @@
 #include <array>
 
-#include "Kernel/CoarseGraining/FieldOutput.h"
-#include "Kernel/Simulation/SuperquadricSimulation.h"
-#include "Kernel/Sizes/SizeLaws.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Analysis/CoarseGraining/FieldOutput.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Scene/SuperquadricSimulation.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "Kernel/CoarseGraining/MeanStress.h"
+#include "Kernel/Analysis/Observables/MeanStress.h"
 #include "SelfTests/HowDoI/LooseGrains.h"
 
 namespace {

@@ -2,8 +2,8 @@
 
 #include <numbers>
 
-#include "Kernel/Simulation/SuperquadricSimulation.h"
-#include "Kernel/Sizes/SizeLaws.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Scene/SuperquadricSimulation.h"
 
 namespace {
 

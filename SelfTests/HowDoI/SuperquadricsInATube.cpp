@@ -1,5 +1,5 @@
-#include "Kernel/Simulation/SuperquadricSimulation.h"
-#include "Kernel/Walls/InfiniteCylinder.h"
+#include "Kernel/Features/CurvedWalls/InfiniteCylinder.h"
+#include "Kernel/Scene/SuperquadricSimulation.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "Kernel/Parts/HeatPart.h"
+#include "Kernel/Features/Heat/HeatPart.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "Kernel/Simulation/BridgeAdvice.h"
+#include "Kernel/Scene/BridgeAdvice.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

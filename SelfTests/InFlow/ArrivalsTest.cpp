@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Sizes/SizeLaws.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Periodic/MovingImages.h"
 #include "SelfTests/Support/TestFolder.h"
 

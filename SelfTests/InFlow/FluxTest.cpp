@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/TestFolder.h"

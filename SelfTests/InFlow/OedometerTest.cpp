@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
 #include "SelfTests/Periodic/MovingImages.h"
 #include "SelfTests/Support/TestFolder.h"
 

@@ -1,7 +1,7 @@
 // Sprays in shear and strain: a droplet meets a grain across a face as in the middle of the box.
 #include <gtest/gtest.h>
 
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Laws.h"
 #include "SelfTests/Periodic/MovingImages.h"
 #include "SelfTests/Support/TestFolder.h"
 

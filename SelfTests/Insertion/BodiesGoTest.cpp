@@ -3,8 +3,8 @@
 
 #include <numbers>
 
-#include "Kernel/Simulation/SuperquadricSimulation.h"
-#include "Kernel/Step/SummaryRows.h"
+#include "Kernel/Core/Step/SummaryRows.h"
+#include "Kernel/Scene/SuperquadricSimulation.h"
 #include "SelfTests/Insertion/FilledScene.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "Kernel/Step/SummaryRows.h"
+#include "Kernel/Core/Step/SummaryRows.h"
 #include "SelfTests/Insertion/ClumpScene.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Support/Refusal.h"

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "Kernel/Particles/OrientationOrder.h"
+#include "Kernel/Features/RigidBodies/OrientationOrder.h"
 #include "SelfTests/Insertion/FilledScene.h"
 
 namespace pendular::scenes {

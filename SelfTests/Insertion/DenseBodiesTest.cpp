@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "Kernel/Insertion/DenseStart.h"
+#include "Kernel/Features/Insertion/DenseStart.h"
 #include "SelfTests/Insertion/ClumpScene.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Sizes/SizeLaws.h"
-#include "Kernel/Sizes/SizeTable.h"
-#include "Kernel/Species/Laws.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Features/SizeDistributions/SizeTable.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Insertion/Meshes.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 

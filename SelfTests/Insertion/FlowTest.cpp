@@ -4,8 +4,8 @@
 #include <array>
 #include <map>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "SelfTests/Insertion/FilledScene.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Support/Random.h"

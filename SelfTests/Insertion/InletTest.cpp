@@ -3,8 +3,8 @@
 
 #include <fstream>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Output/GrainFlowFiles.h"
+#include "Kernel/Analysis/Output/GrainFlowFiles.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "SelfTests/Insertion/FilledScene.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Support/CsvRows.h"

@@ -1,10 +1,10 @@
 // Fixed amounts of grains that are put into regions, at set-up and in a run.
 #include <gtest/gtest.h>
 
-#include "Kernel/Insertion/DenseStart.h"
-#include "Kernel/Insertion/MeshRegion.h"
-#include "Kernel/Insertion/SphereGrid.h"
-#include "Kernel/Sizes/SizeSample.h"
+#include "Kernel/Features/Insertion/DenseStart.h"
+#include "Kernel/Features/Insertion/MeshRegion.h"
+#include "Kernel/Features/Insertion/SphereGrid.h"
+#include "Kernel/Features/SizeDistributions/SizeSample.h"
 #include "SelfTests/Insertion/FilledScene.h"
 #include "SelfTests/Insertion/Meshes.h"
 #include "SelfTests/Restart/StateContent.h"

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "Kernel/Walls/TriangleReader.h"
+#include "Kernel/Features/Meshes/TriangleReader.h"
 
 namespace pendular::scenes {
 

@@ -5,11 +5,11 @@
 #include <functional>
 #include <numbers>
 
-#include "Kernel/Insertion/MeshRegion.h"
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Species/Laws.h"
-#include "Kernel/Walls/InfiniteCylinder.h"
-#include "Kernel/Walls/InfiniteWall.h"
+#include "Kernel/Core/Walls/InfiniteWall.h"
+#include "Kernel/Features/CurvedWalls/InfiniteCylinder.h"
+#include "Kernel/Features/Insertion/MeshRegion.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Scene/Simulation.h"
 #include "SelfTests/Insertion/Meshes.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TemporaryFile.h"

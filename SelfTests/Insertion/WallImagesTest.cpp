@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeWillett.h"
 #include "SelfTests/Insertion/ClumpScene.h"
 #include "SelfTests/Support/Refusal.h"
 

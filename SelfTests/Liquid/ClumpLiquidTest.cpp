@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Simulation/OverlapEstimate.h"
-#include "Kernel/Simulation/PendularState.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Scene/PendularState.h"
+#include "Kernel/Scene/TimeStep/OverlapEstimate.h"
 #include "SelfTests/Liquid/WetScenes.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Support/Refusal.h"

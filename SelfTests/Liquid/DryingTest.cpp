@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Capillary/CapillaryBridge.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Simulation/PendularState.h"
-#include "Kernel/Species/AdhesionEnergy.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Features/LiquidBridges/YoungLaplace/CapillaryBridge.h"
+#include "Kernel/Laws/Species/AdhesionEnergy.h"
+#include "Kernel/Scene/PendularState.h"
 #include "SelfTests/Liquid/WetScenes.h"
 #include "SelfTests/Restart/ChildRun.h"
 #include "SelfTests/Support/LedgerError.h"

@@ -2,8 +2,8 @@
 // restart.
 #include <gtest/gtest.h>
 
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Support/AnyMaterial.h"
 

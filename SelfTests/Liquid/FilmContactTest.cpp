@@ -4,10 +4,10 @@
 #include <limits>
 #include <numbers>
 
-#include "Kernel/Species/Adhesion/CombinedLaws.h"
-#include "Kernel/Species/Friction/NoFriction.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/CombinedLaws.h"
+#include "Kernel/Laws/Friction/NoFriction.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Liquid/WetScenes.h"
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Support/Refusal.h"

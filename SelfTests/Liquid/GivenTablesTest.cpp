@@ -3,8 +3,8 @@
 #include <array>
 #include <string>
 
-#include "Kernel/Contacts/Evaporation.h"
-#include "Kernel/Species/BridgeSurface.h"
+#include "Kernel/Features/LiquidBridges/BridgeSurface.h"
+#include "Kernel/Features/LiquidTransport/Evaporation.h"
 #include "SelfTests/Liquid/ViscousPair.h"
 #include "SelfTests/Support/CsvRows.h"
 #include "SelfTests/Support/RunProgram.h"

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Simulation/RunSummary.h"
-#include "Kernel/Species/Adhesion/CombinedLaws.h"
-#include "Kernel/Species/Adhesion/WetWall.h"
-#include "Kernel/Species/Friction/NoFriction.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Analysis/Output/RunSummary.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/CombinedLaws.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/WetWall.h"
+#include "Kernel/Laws/Friction/NoFriction.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Restart/ChildRun.h"
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Support/Refusal.h"

@@ -1,4 +1,4 @@
-#include "Kernel/Contacts/LiquidStep.h"
+#include "Kernel/Features/LiquidTransport/LiquidStep.h"
 
 #include <gtest/gtest.h>
 

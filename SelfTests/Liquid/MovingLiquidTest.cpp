@@ -7,9 +7,9 @@
 #include <numeric>
 #include <random>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Species/Laws.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
 #include "SelfTests/Liquid/WetScenes.h"
 #include "SelfTests/Restart/ChildRun.h"
 #include "SelfTests/Support/AtRunTime.h"

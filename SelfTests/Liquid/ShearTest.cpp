@@ -1,11 +1,11 @@
 // Liquid that moves in a flow whose images slide past each other.
 #include <gtest/gtest.h>
 
-#include "Kernel/Species/Adhesion/CombinedLaws.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Friction/NoFriction.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/CombinedLaws.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Friction/NoFriction.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Liquid/WetScenes.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/ShearedCloud.h"

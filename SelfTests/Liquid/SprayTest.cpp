@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Species/Laws.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
 #include "SelfTests/Liquid/WetScenes.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"

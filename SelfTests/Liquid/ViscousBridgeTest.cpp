@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Adhesion/CombinedLaws.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/CombinedLaws.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Liquid/ViscousPair.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Scenes/HookedGrains.h"

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "Kernel/Contacts/Evaporation.h"
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Adhesion/CombinedLaws.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/CombinedLaws.h"
+#include "Kernel/Features/LiquidTransport/Evaporation.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/Simulation.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Support/TestFolder.h"
 
 // Viscous bridges whose liquid moves: contacts that have none yet, have lost it, or get it again.

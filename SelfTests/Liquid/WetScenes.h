@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <vector>
 
-#include "Kernel/Species/BridgeLaws.h"
+#include "Kernel/Scene/BridgeLaws.h"
 #include "SelfTests/Restart/ChildRun.h"
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"

@@ -1,4 +1,4 @@
-#include "Kernel/Math/ElementaryFunctions.h"
+#include "Kernel/Foundation/Math/ElementaryFunctions.h"
 #include "SelfTests/Math/IndependentElementaryFunctions.h"
 
 #include <gtest/gtest.h>

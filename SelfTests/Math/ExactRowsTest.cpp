@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "Kernel/Math/ExactRows.h"
+#include "Kernel/Foundation/Math/ExactRows.h"
 
 namespace pendular::exactRowsTest {
 namespace {

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "Kernel/Math/ExactSum.h"
+#include "Kernel/Foundation/Math/ExactSum.h"
 
 namespace pendular::exactSumTest {
 namespace {

@@ -1,4 +1,4 @@
-#include "Kernel/Math/Halving.h"
+#include "Kernel/Foundation/Math/Halving.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include "Kernel/Math/Pack.h"
-#include "Kernel/Math/Vector.h"
+#include "Kernel/Foundation/Math/Pack.h"
+#include "Kernel/Foundation/Math/Vector.h"
 
 #include <gtest/gtest.h>
 #include <cstring>

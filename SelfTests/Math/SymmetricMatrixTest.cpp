@@ -1,4 +1,4 @@
-#include "Kernel/Math/SymmetricMatrix.h"
+#include "Kernel/Foundation/Math/SymmetricMatrix.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "Kernel/Math/EigenConversion.h"
-#include "Kernel/Math/Four.h"
-#include "Kernel/Math/Vector.h"
+#include "Kernel/Foundation/Math/EigenConversion.h"
+#include "Kernel/Foundation/Math/Four.h"
+#include "Kernel/Foundation/Math/Vector.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>

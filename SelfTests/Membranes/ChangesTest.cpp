@@ -3,10 +3,10 @@
 
 #include <set>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Walls/Membrane.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/Membranes/Membrane.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "SelfTests/Membranes/MembraneScene.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"

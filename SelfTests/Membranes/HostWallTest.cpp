@@ -1,5 +1,5 @@
 // Walls whose vertices another program moves.
-#include "Kernel/Walls/HostWall.h"
+#include "Kernel/Features/Membranes/HostWall.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/State/StateArchive.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Foundation/State/StateArchive.h"
 #include "SelfTests/Membranes/MembraneScene.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"

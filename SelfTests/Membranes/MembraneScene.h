@@ -4,10 +4,10 @@
 #include <numbers>
 #include <vector>
 
+#include "Kernel/Features/Membranes/Membrane.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
 #include "Kernel/MercuryNames.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Walls/Membrane.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/FewGrains.h"
 
 namespace pendular::membraneTests {

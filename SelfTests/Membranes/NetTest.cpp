@@ -8,8 +8,8 @@
 #include <numbers>
 #include <tuple>
 
-#include "Kernel/State/Random.h"
-#include "Kernel/Walls/MembraneNet.h"
+#include "Kernel/Features/Membranes/MembraneNet.h"
+#include "Kernel/Foundation/State/Random.h"
 #include "SelfTests/Support/Refusal.h"
 
 namespace pendular::netTest {

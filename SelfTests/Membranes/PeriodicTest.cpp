@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/State/Random.h"
-#include "Kernel/Walls/Membrane.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/Membranes/Membrane.h"
+#include "Kernel/Foundation/State/Random.h"
 #include "SelfTests/Membranes/MembraneScene.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Support/Refusal.h"

@@ -1,5 +1,5 @@
 // The adapter for preCICE against a stand-in, and compiled against preCICE where it is found.
-#include "Kernel/Walls/PreciceWall.h"
+#include "Kernel/Features/Membranes/PreciceWall.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // Membranes and grains in one scene.
 #include <gtest/gtest.h>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/State/Random.h"
-#include "Kernel/Walls/Membrane.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/Membranes/Membrane.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Foundation/State/Random.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Membranes/MembraneScene.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"

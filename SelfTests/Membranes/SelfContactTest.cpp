@@ -1,8 +1,8 @@
 // A membrane does not touch itself: where it would, that is said.
 #include <gtest/gtest.h>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Walls/Membrane.h"
+#include "Kernel/Features/Membranes/Membrane.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "SelfTests/Membranes/MembraneScene.h"
 #include "SelfTests/Support/Refusal.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "Kernel/MercuryScene.h"
-#include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "Kernel/Features/Bonds/BondPart.h"
+#include "Kernel/Features/Heat/HeatPart.h"
 #include "Kernel/MercuryScene.h"
-#include "Kernel/Parts/BondPart.h"
-#include "Kernel/Parts/HeatPart.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 

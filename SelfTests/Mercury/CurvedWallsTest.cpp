@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "Kernel/State/Random.h"
+#include "Kernel/Foundation/State/Random.h"
 #include "Mercury3D.h"
 #include "Nurbs/NurbsSurface.h"
 #include "SelfTests/Support/Refusal.h"

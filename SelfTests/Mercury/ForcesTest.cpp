@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "Kernel/Math/EigenConversion.h"
-#include "Kernel/Parts/BondPart.h"
+#include "Kernel/Features/Bonds/BondPart.h"
+#include "Kernel/Foundation/Math/EigenConversion.h"
 #include "Mercury3D.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "Kernel/Contacts/SpeciesRegistry.h"
+#include "Kernel/Features/SpeciesByName/SpeciesRegistry.h"
 #include "Kernel/MercuryScene.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/SharedData.h"

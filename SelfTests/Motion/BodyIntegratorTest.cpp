@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Friction/SlidingFriction.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Energy/OpenAccount.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Scenes/FewGrains.h"

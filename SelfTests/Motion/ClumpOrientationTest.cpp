@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Insertion/Region.h"
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Sizes/SizeLaws.h"
-#include "Kernel/Species/Friction/SlidingFriction.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Features/Insertion/Region.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/Simulation.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/TestFolder.h"
 

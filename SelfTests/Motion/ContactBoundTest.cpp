@@ -3,15 +3,15 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "Kernel/Motion/ContactBound.h"
-#include "Kernel/Motion/StabilityLimit.h"
-#include "Kernel/Species/Adhesion/ReversibleAdhesive.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Friction/SlidingFriction.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
-#include "Kernel/State/Random.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Core/Motion/StabilityLimit.h"
+#include "Kernel/Features/AdaptiveTimeStep/ContactBound.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
+#include "Kernel/Foundation/State/Random.h"
+#include "Kernel/Laws/Adhesion/ReversibleAdhesive.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "Kernel/Motion/FreeTurn.h"
+#include "Kernel/Features/RigidBodies/FreeTurn.h"
 #include "SelfTests/Support/CsvRows.h"
 #include "SelfTests/Support/SharedData.h"
 

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Motion/Integrator.h"
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Species/Friction/SlidingFriction.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
-#include "Kernel/State/Hdf5File.h"
+#include "Kernel/Core/Motion/Integrator.h"
+#include "Kernel/Foundation/State/Hdf5File.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/Simulation.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"

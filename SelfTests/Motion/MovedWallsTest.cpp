@@ -9,10 +9,10 @@
 #include <numbers>
 #include <string>
 
-#include "Kernel/Simulation/StabilityAdvice.h"
-#include "Kernel/Simulation/StepForError.h"
-#include "Kernel/Species/Adhesion/ParhamiMcMeekingSinter.h"
-#include "Kernel/Walls/Membrane.h"
+#include "Kernel/Features/Membranes/Membrane.h"
+#include "Kernel/Laws/Adhesion/ParhamiMcMeekingSinter.h"
+#include "Kernel/Scene/TimeStep/StabilityAdvice.h"
+#include "Kernel/Scene/TimeStep/StepForError.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Walls/Bodies/BodyScene.h"

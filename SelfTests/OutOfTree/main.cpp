@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Laws.h"
 
 int main() {
     using S = pendular::HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies;

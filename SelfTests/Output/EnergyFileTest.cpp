@@ -2,9 +2,9 @@
 
 #include <fstream>
 
-#include "Kernel/Output/EnergyFile.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Analysis/Output/EnergyFile.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/CsvRows.h"
 #include "SelfTests/Support/RunProgram.h"

@@ -1,12 +1,12 @@
 // Names and units that a driver gives: they become parts of names of files, of XML and of HDF5.
 #include <gtest/gtest.h>
 
-#include "Kernel/CoarseGraining/FieldOutput.h"
-#include "Kernel/Files/FileName.h"
-#include "Kernel/Output/Hdf5Output.h"
-#include "Kernel/Output/MercuryOutput.h"
-#include "Kernel/Output/ParaViewOutput.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Analysis/CoarseGraining/FieldOutput.h"
+#include "Kernel/Analysis/Output/Hdf5Output.h"
+#include "Kernel/Analysis/Output/ParaViewOutput.h"
+#include "Kernel/Foundation/Files/FileName.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Mercury/MercuryOutput.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"
 

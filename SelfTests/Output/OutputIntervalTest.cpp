@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "Kernel/Simulation/OutputForm.h"
-#include "Kernel/Simulation/OutputInterval.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
-#include "Kernel/State/Random.h"
+#include "Kernel/Core/Run/OutputInterval.h"
+#include "Kernel/Foundation/State/Random.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/OutputForm.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"

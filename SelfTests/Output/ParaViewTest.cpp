@@ -5,14 +5,14 @@
 #include <fstream>
 #include <numbers>
 
-#include "Kernel/Output/ParaViewOutput.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
-#include "Kernel/Walls/InfiniteCylinder.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Analysis/Output/ParaViewOutput.h"
+#include "Kernel/Features/CurvedWalls/InfiniteCylinder.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeWillett.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/RunProgram.h"

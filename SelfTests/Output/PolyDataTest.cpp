@@ -8,8 +8,8 @@
 #include <fstream>
 
 #include "BuildFolders.h"
-#include "Kernel/Output/Compression.h"
-#include "Kernel/Output/PolyData.h"
+#include "Kernel/Analysis/Output/Compression.h"
+#include "Kernel/Analysis/Output/PolyData.h"
 #include "SelfTests/Support/Dependency.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "Kernel/Simulation/Progress.h"
+#include "Kernel/Core/Run/Progress.h"
 
 namespace pendular::progressTest {
 namespace {

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <span>
 
-#include "Kernel/Output/FieldFile.h"
-#include "Kernel/Output/Hdf5Frame.h"
-#include "Kernel/Output/Hdf5Output.h"
-#include "Kernel/Output/ParaViewOutput.h"
-#include "Kernel/Output/ShapeFields.h"
-#include "Kernel/Species/Laws.h"
-#include "Kernel/State/Hdf5File.h"
+#include "Kernel/Analysis/Output/FieldFile.h"
+#include "Kernel/Analysis/Output/Hdf5Frame.h"
+#include "Kernel/Analysis/Output/Hdf5Output.h"
+#include "Kernel/Analysis/Output/ParaViewOutput.h"
+#include "Kernel/Analysis/Output/ShapeFields.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Foundation/State/Hdf5File.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
 #include "SelfTests/Support/Dependency.h"

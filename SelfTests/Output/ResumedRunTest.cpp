@@ -8,12 +8,12 @@
 #include <set>
 #include <thread>
 
-#include "Kernel/Output/EnergyFile.h"
-#include "Kernel/Output/FieldFile.h"
-#include "Kernel/Output/Hdf5Output.h"
-#include "Kernel/Output/MercuryOutput.h"
-#include "Kernel/Output/ParaViewOutput.h"
-#include "Kernel/State/Random.h"
+#include "Kernel/Analysis/Output/EnergyFile.h"
+#include "Kernel/Analysis/Output/FieldFile.h"
+#include "Kernel/Analysis/Output/Hdf5Output.h"
+#include "Kernel/Analysis/Output/ParaViewOutput.h"
+#include "Kernel/Foundation/State/Random.h"
+#include "Kernel/Mercury/MercuryOutput.h"
 #include "SelfTests/Restart/ChildRun.h"
 #include "SelfTests/Support/Refusal.h"
 

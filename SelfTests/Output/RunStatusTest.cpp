@@ -8,11 +8,11 @@
 #include <string>
 
 #include "BuildFolders.h"
-#include "Kernel/Output/EnergyFile.h"
-#include "Kernel/Output/ParaViewOutput.h"
-#include "Kernel/Simulation/OutputForm.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Analysis/Output/EnergyFile.h"
+#include "Kernel/Analysis/Output/ParaViewOutput.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Scene/OutputForm.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/RunProgram.h"

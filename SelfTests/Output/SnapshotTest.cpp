@@ -5,9 +5,9 @@
 #include <set>
 
 #include "BuildFolders.h"
-#include "Kernel/Output/ParaViewOutput.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Analysis/Output/ParaViewOutput.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Dependency.h"
 #include "SelfTests/Support/Random.h"

@@ -8,11 +8,11 @@
 #include <numbers>
 
 #include "BuildFolders.h"
-#include "Kernel/Base/InputError.h"
-#include "Kernel/PartialSlip/ElasticImpact.h"
+#include "Kernel/Foundation/Base/InputError.h"
 #include "SelfTests/Support/CsvRows.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/RunProgram.h"
+#include "Tools/Reference/ElasticImpact.h"
 
 namespace pendular::partialSlipTest {
 namespace {

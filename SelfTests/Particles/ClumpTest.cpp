@@ -4,13 +4,13 @@
 #include <fstream>
 #include <numbers>
 
-#include "Kernel/CoarseGraining/FieldSums.h"
-#include "Kernel/CoarseGraining/SceneState.h"
-#include "Kernel/Output/SceneFields.h"
-#include "Kernel/Shapes/MeshSolid.h"
-#include "Kernel/Sizes/SizeLaws.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
-#include "Kernel/Walls/TriangleReader.h"
+#include "Kernel/Analysis/CoarseGraining/FieldSums.h"
+#include "Kernel/Analysis/CoarseGraining/SceneState.h"
+#include "Kernel/Analysis/Output/SceneFields.h"
+#include "Kernel/Features/Meshes/MeshSolid.h"
+#include "Kernel/Features/Meshes/TriangleReader.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"

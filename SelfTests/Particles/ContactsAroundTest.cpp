@@ -1,4 +1,4 @@
-#include "Kernel/Particles/ContactsAround.h"
+#include "Kernel/Features/RigidBodies/ContactsAround.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
-#include "Kernel/Math/EigenConversion.h"
-#include "Kernel/Particles/BodyHandler.h"
+#include "Kernel/Features/RigidBodies/BodyHandler.h"
+#include "Kernel/Foundation/Math/EigenConversion.h"
 
 // By how much contacts move rigid bodies, against closed forms: sums over spheres that touch.
 

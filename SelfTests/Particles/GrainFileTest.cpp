@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "BuildFolders.h"
-#include "Kernel/Particles/GrainFile.h"
+#include "Kernel/Features/GrainFiles/GrainFile.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/SharedData.h"
 #include "SelfTests/Support/TemporaryFile.h"

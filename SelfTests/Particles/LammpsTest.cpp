@@ -1,8 +1,8 @@
 // Files of LAMMPS and LIGGGHTS as grains, and grains by their types.
 #include <gtest/gtest.h>
 
-#include "Kernel/Particles/GrainFile.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Features/GrainFiles/GrainFile.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TemporaryFile.h"

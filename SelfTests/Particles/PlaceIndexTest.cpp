@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "Kernel/Particles/PlaceIndex.h"
+#include "Kernel/Core/Particles/PlaceIndex.h"
 
 namespace pendular::placeIndexTest {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Kernel/Motion/StabilityLimit.h"
-#include "Kernel/Particles/DampedServo.h"
+#include "Kernel/Core/Motion/StabilityLimit.h"
+#include "Kernel/Features/Servos/DampedServo.h"
 
 namespace pendular::servoLoopTest {
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "Kernel/Particles/Servo.h"
+#include "Kernel/Features/Servos/Servo.h"
 
 namespace pendular::servoTest {
 namespace {

@@ -1,8 +1,8 @@
 // What a run changes of shear and strain: targets, rates, steps that fail, restarts between any two steps.
 #include <gtest/gtest.h>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/CoarseGraining/MeanStress.h"
+#include "Kernel/Analysis/Observables/MeanStress.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "SelfTests/Periodic/Lattice.h"
 #include "SelfTests/Periodic/MovingImages.h"
 #include "SelfTests/Scenes/FewGrains.h"

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "Kernel/CoarseGraining/MeanStress.h"
-#include "Kernel/Parts/StressServo.h"
-#include "Kernel/Species/Friction/SlidingFriction.h"
+#include "Kernel/Analysis/Observables/MeanStress.h"
+#include "Kernel/Features/ShearAndStrain/StressServo.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
 #include "SelfTests/Periodic/Lattice.h"
 
 namespace pendular::dampedServoTest {

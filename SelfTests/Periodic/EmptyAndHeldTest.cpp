@@ -2,8 +2,8 @@
 // refused.
 #include <gtest/gtest.h>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/Simulation.h"
 
 namespace pendular::periodic {
 

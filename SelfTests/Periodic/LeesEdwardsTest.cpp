@@ -2,11 +2,11 @@
 
 #include <array>
 
-#include "Kernel/CoarseGraining/MeanStress.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Contacts/NeighbourSearch.h"
-#include "Kernel/Particles/LeesEdwards.h"
-#include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Analysis/Observables/MeanStress.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Core/Contacts/NeighbourSearch.h"
+#include "Kernel/Features/ShearAndStrain/LeesEdwards.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Periodic/MovingImages.h"
 #include "SelfTests/Periodic/ObliquePair.h"
 #include "SelfTests/Scenes/FewGrains.h"

@@ -7,10 +7,10 @@
 #include <numbers>
 #include <utility>
 
-#include "Kernel/Particles/ClumpTemplate.h"
-#include "Kernel/Species/BridgeLaws.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Features/RigidBodies/ClumpTemplate.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Scene/BridgeLaws.h"
 #include "SelfTests/Liquid/WetScenes.h"
 #include "SelfTests/Periodic/ThroughFaces.h"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "Kernel/Math/Vector.h"
+#include "Kernel/Foundation/Math/Vector.h"
 #include "SelfTests/Support/Random.h"
 
 namespace pendular::support {

@@ -1,10 +1,10 @@
 // Shear whose rate changes, shear together with strain, and shear under stresses.
 #include <gtest/gtest.h>
 
-#include "Kernel/CoarseGraining/MeanStress.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Particles/LeesEdwards.h"
-#include "Kernel/Parts/StressServo.h"
+#include "Kernel/Analysis/Observables/MeanStress.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/ShearAndStrain/LeesEdwards.h"
+#include "Kernel/Features/ShearAndStrain/StressServo.h"
 #include "SelfTests/Periodic/Lattice.h"
 #include "SelfTests/Periodic/MovingImages.h"
 #include "SelfTests/Periodic/ObliquePair.h"

@@ -1,9 +1,9 @@
 // Stresses of grains in homogeneous shear against numbers of two other codes.
 #include <gtest/gtest.h>
 
-#include "Kernel/CoarseGraining/MeanStress.h"
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Analysis/Observables/MeanStress.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/Simulation.h"
 #include "SelfTests/Periodic/PlainShearedSpheres.h"
 #include "SelfTests/Scenes/CubicLattice.h"
 #include "SelfTests/Support/Random.h"

@@ -3,12 +3,12 @@
 
 #include <array>
 
-#include "Kernel/CoarseGraining/MeanStress.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Particles/HomogeneousStrain.h"
-#include "Kernel/Parts/StressServo.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Analysis/Observables/MeanStress.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/ShearAndStrain/HomogeneousStrain.h"
+#include "Kernel/Features/ShearAndStrain/StressServo.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Periodic/Lattice.h"
 #include "SelfTests/Periodic/MovingImages.h"
 #include "SelfTests/Periodic/ObliquePair.h"

@@ -3,9 +3,9 @@
 #include <functional>
 #include <vector>
 
-#include "Kernel/Walls/AxisymmetricWall.h"
-#include "Kernel/Walls/InfiniteCylinder.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Features/CurvedWalls/AxisymmetricWall.h"
+#include "Kernel/Features/CurvedWalls/InfiniteCylinder.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 

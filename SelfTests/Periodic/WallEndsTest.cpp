@@ -2,9 +2,9 @@
 
 #include <memory>
 
-#include "Kernel/Species/BridgeLaws.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Scene/BridgeLaws.h"
 #include "SelfTests/Periodic/ThroughFaces.h"
 #include "SelfTests/Support/Refusal.h"
 

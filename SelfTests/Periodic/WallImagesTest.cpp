@@ -1,11 +1,11 @@
-#include "Kernel/Walls/WallImages.h"
+#include "Kernel/Core/Walls/WallImages.h"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 #include <numbers>
 
-#include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Periodic/PavedFloor.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Periodic/PavedFloor.h"
 #include "SelfTests/Support/TestFolder.h"
 

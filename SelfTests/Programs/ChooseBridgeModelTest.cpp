@@ -7,7 +7,7 @@
 #include <string>
 
 #include "BuildFolders.h"
-#include "Kernel/Species/BridgeLaws.h"
+#include "Kernel/Scene/BridgeLaws.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/RunProgram.h"
 

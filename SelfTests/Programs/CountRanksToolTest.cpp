@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "BuildFolders.h"
-#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Scene/Simulation.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/RunProgram.h"

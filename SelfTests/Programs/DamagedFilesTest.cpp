@@ -11,10 +11,10 @@
 #include <fstream>
 
 #include "BuildFolders.h"
-#include "Kernel/Files/ReadingProcess.h"
-#include "Kernel/Particles/ParticleStore.h"
-#include "Kernel/State/Random.h"
-#include "Kernel/State/RestartFile.h"
+#include "Kernel/Core/Particles/ParticleStore.h"
+#include "Kernel/Foundation/Files/ReadingProcess.h"
+#include "Kernel/Foundation/State/Random.h"
+#include "Kernel/Foundation/State/RestartFile.h"
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/SharedData.h"
 #include "SelfTests/Support/TestFolder.h"

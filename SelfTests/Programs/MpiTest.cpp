@@ -6,7 +6,7 @@
 #include <regex>
 
 #include "BuildFolders.h"
-#include "Kernel/State/RestartFile.h"
+#include "Kernel/Foundation/State/RestartFile.h"
 #include "SelfTests/Programs/OnRanks.h"
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/SameFiles.h"
@@ -178,7 +178,7 @@ TEST_F(LongMpi, worksWithMpich) {
     const std::string module = in("PendularMpi.so");
     const ProgramResult made =
         run(fmt::format("mpicxx.mpich -std=c++20 -O2 -fPIC -shared -DFMT_SHARED -I{0} "
-                        "{0}/Kernel/Ranks/Mpi/MpiRanks.cpp -lfmt -o {1}",
+                        "{0}/Kernel/Features/DomainDecomposition/Mpi/MpiRanks.cpp -lfmt -o {1}",
                         folders::source.string(), module));
     ASSERT_EQ(made.exitCode, 0) << made.output;
     const auto onMpich = [&](int count) {

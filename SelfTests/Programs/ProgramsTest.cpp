@@ -66,9 +66,8 @@ TEST(Documentation, referencePageHasTheRowOfAField) {
 /// Every setter in the headers of the laws is described, and every one that is described is in a header.
 TEST(Documentation, referencePageHasEverySetter) {
     std::string headers;
-    for (const char* kind : {"Normal", "Friction", "Adhesion"})
-        for (const auto& entry :
-             std::filesystem::recursive_directory_iterator(source / "Kernel/Species" / kind))
+    for (const char* folder : {"Laws/Normal", "Laws/Friction", "Laws/Adhesion", "Features/LiquidBridges"})
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(source / "Kernel" / folder))
             if (entry.path().extension() == ".h") headers += contentOf(entry.path());
     const std::string page = referencePage();
     const auto namesIn = [](const std::string& text, const std::string& before) {

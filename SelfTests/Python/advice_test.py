@@ -58,8 +58,8 @@ def snippets(name):
 
 # The law -------------------------------------------------------------------------------------------------------------
 
-LAWS = "Kernel/Species/README.md"  # has the start
-FRICTION = "Kernel/Species/Friction/README.md"  # has the rule
+LAWS = "Kernel/Laws/README.md"  # has the start
+FRICTION = "Kernel/Laws/Friction/README.md"  # has the rule
 EXCEPTIONS = "### Programs that take `Mindlin`"
 # Laws of MercuryDPM on Hertz' force, as the name of a species or as a type; not MindlinIncremental and MindlinPartialSlip.
 OTHER = re.compile(r"\bHertzianViscoelasticMindlin(?!Incremental|PartialSlip)|\bSpecies<HertzianViscoelastic, Mindlin(?:Secant|RollingTorsion)?[,>]")
@@ -115,7 +115,7 @@ def test_exceptions_have_a_reason():
 
 # The step ------------------------------------------------------------------------------------------------------------
 
-MOTION = "Kernel/Motion/README.md"
+MOTION = "Kernel/Core/Motion/README.md"
 OTHER_STEPS = "### Examples that take another step"
 IN_CPP = r"setTimeStep\(std::min\(stabilityLimit\(\), shortestContactTime\(\) / (\d+)\)\)"
 IN_PYTHON = r"time_step = min\(scene\.stability_limit\(\), scene\.shortest_contact_time\(\) / (\d+)\)"

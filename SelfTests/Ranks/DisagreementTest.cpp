@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Parts/HeatPart.h"
-#include "Kernel/Ranks/GrainSharing.h"
-#include "Kernel/Ranks/VirtualRanks.h"
-#include "Kernel/Walls/Membrane.h"
+#include "Kernel/Features/DomainDecomposition/GrainSharing.h"
+#include "Kernel/Features/Heat/HeatPart.h"
+#include "Kernel/Features/Membranes/Membrane.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"
+#include "Tools/Reference/VirtualRanks.h"
 
 namespace pendular::disagreementTest {
 namespace {

@@ -5,9 +5,9 @@
 #include <map>
 #include <set>
 
-#include "Kernel/Files/TextFile.h"
-#include "Kernel/Output/FrameParts.h"
-#include "Kernel/Output/ParaViewSeries.h"
+#include "Kernel/Analysis/Output/FrameParts.h"
+#include "Kernel/Analysis/Output/ParaViewSeries.h"
+#include "Kernel/Foundation/Files/TextFile.h"
 #include "SelfTests/Ranks/SharedRuns.h"
 #include "SelfTests/Ranks/SharedScene.h"
 #include "SelfTests/Support/Refusal.h"

@@ -1,4 +1,4 @@
-#include "Kernel/Ranks/GrainExtents.h"
+#include "Kernel/Features/DomainDecomposition/GrainExtents.h"
 
 #include <gtest/gtest.h>
 

@@ -5,10 +5,10 @@
 #include <mutex>
 #include <vector>
 
-#include "Kernel/Ranks/VirtualRanks.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Ranks/SharedScene.h"
 #include "SelfTests/Scenes/FewGrains.h"
+#include "Tools/Reference/VirtualRanks.h"
 
 namespace pendular::movedWallStepTest {
 namespace {

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <random>
 
-#include "Kernel/CoarseGraining/MeanStress.h"
-#include "Kernel/Insertion/Region.h"
-#include "Kernel/Parts/AdaptiveStep.h"
+#include "Kernel/Analysis/Observables/MeanStress.h"
+#include "Kernel/Features/AdaptiveTimeStep/AdaptiveStep.h"
+#include "Kernel/Features/Insertion/Region.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Random.h"

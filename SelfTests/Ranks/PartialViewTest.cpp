@@ -7,11 +7,11 @@
 #include <optional>
 #include <set>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Ranks/VirtualRanks.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
 #include "SelfTests/Ranks/SharedScene.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"
+#include "Tools/Reference/VirtualRanks.h"
 
 namespace pendular::partialViewTest {
 namespace {

@@ -1,7 +1,7 @@
 // What acts in the steps of a scene does the same, bit for bit, where ranks share its grains.
 #include <gtest/gtest.h>
 
-#include "Kernel/Sizes/SizeLaws.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
 #include "SelfTests/Periodic/PavedFloor.h"
 #include "SelfTests/Ranks/SharedInlets.h"
 #include "SelfTests/Ranks/SharedScene.h"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "Kernel/Simulation/Scene.h"
-#include "Kernel/Sizes/SizeLaws.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Scene/Scene.h"
 
 /// What comes into scenes that ranks share.
 namespace pendular::ranks {

@@ -1,7 +1,7 @@
 // Liquid that moves between grains, bridges and walls which ranks share: the same bits, and none lost.
 #include <gtest/gtest.h>
 
-#include "Kernel/Sizes/SizeLaws.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
 #include "SelfTests/Liquid/WetScenes.h"
 #include "SelfTests/Ranks/SharedInlets.h"
 #include "SelfTests/Ranks/SharedScene.h"

@@ -9,12 +9,12 @@
 #include <mutex>
 #include <vector>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Parts/AdaptiveStep.h"
-#include "Kernel/Ranks/GrainSharing.h"
-#include "Kernel/Ranks/VirtualRanks.h"
-#include "Kernel/Simulation/Scene.h"
-#include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/AdaptiveTimeStep/AdaptiveStep.h"
+#include "Kernel/Features/DomainDecomposition/GrainSharing.h"
+#include "Kernel/Scene/Scene.h"
+#include "Kernel/Scene/StateHash.h"
+#include "Tools/Reference/VirtualRanks.h"
 
 namespace pendular::ranks {
 

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Base/RunError.h"
-#include "Kernel/CoarseGraining/Clusters.h"
-#include "Kernel/CoarseGraining/SceneState.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Simulation/PendularState.h"
+#include "Kernel/Analysis/CoarseGraining/SceneState.h"
+#include "Kernel/Analysis/Observables/Clusters.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Scene/PendularState.h"
 #include "SelfTests/Ranks/SharedScene.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/MovingBenchmark.h"

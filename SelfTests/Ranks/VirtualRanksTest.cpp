@@ -1,4 +1,4 @@
-#include "Kernel/Ranks/VirtualRanks.h"
+#include "Tools/Reference/VirtualRanks.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Ranks/AllRanks.h"
-#include "Kernel/Ranks/Bisection.h"
-#include "Kernel/State/Random.h"
+#include "Kernel/Core/Ranks/AllRanks.h"
+#include "Kernel/Features/DomainDecomposition/Bisection.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Foundation/State/Random.h"
 
 namespace pendular::virtualRanksTest {
 namespace {

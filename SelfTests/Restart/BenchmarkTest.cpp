@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Scenes/MovingBenchmark.h"
 #include "SelfTests/Support/TestFolder.h"

@@ -8,11 +8,11 @@
 #include <csignal>
 #include <thread>
 
-#include "Kernel/Output/RunTable.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Analysis/Output/RunTable.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeBagheri.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/RunProgram.h"

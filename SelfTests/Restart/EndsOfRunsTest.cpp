@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "Drivers/Shared/DrumScene.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "Kernel/State/Hdf5File.h"
+#include "Kernel/Foundation/State/Hdf5File.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
@@ -11,7 +11,7 @@
 
     #include <fstream>
 
-    #include "Kernel/State/Hdf5Library.h"
+    #include "Kernel/Foundation/State/Hdf5Library.h"
 
 namespace pendular::foreignPartsTest {
 namespace {

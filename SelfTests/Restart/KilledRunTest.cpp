@@ -4,8 +4,8 @@
 #include <chrono>
 #include <thread>
 
-#include "Kernel/State/Random.h"
-#include "Kernel/State/RestartFile.h"
+#include "Kernel/Foundation/State/Random.h"
+#include "Kernel/Foundation/State/RestartFile.h"
 #include "SelfTests/Restart/ChildRun.h"
 
 namespace pendular::killedRunTest {

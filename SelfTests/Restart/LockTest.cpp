@@ -2,9 +2,9 @@
 // had been alone.
 #include <sys/stat.h>
 
-#include "Kernel/Files/FileLock.h"
-#include "Kernel/Files/SetAside.h"
-#include "Kernel/Files/WrittenBeside.h"
+#include "Kernel/Foundation/Files/FileLock.h"
+#include "Kernel/Foundation/Files/SetAside.h"
+#include "Kernel/Foundation/Files/WrittenBeside.h"
 #include "SelfTests/Restart/ChildRun.h"
 #include "SelfTests/Support/Refusal.h"
 

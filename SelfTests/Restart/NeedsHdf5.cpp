@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "Kernel/State/Hdf5File.h"
+#include "Kernel/Foundation/State/Hdf5File.h"
 #include "SelfTests/Support/Dependency.h"
 
 namespace pendular::needsHdf5 {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Scene/Simulation.h"
 
 namespace pendular::resumed {
 

@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "Kernel/Simulation/SceneInside.h"
-#include "Kernel/State/StateDigest.h"
+#include "Kernel/Foundation/State/StateDigest.h"
+#include "Kernel/Scene/SceneInside.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 

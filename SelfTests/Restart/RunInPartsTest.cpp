@@ -5,10 +5,10 @@
 #include <set>
 #include <thread>
 
-#include "Kernel/Output/EnergyFile.h"
-#include "Kernel/Output/MercuryOutput.h"
-#include "Kernel/Output/ParaViewOutput.h"
-#include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Analysis/Output/EnergyFile.h"
+#include "Kernel/Analysis/Output/ParaViewOutput.h"
+#include "Kernel/Mercury/MercuryOutput.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Restart/ChildRun.h"
 #include "SelfTests/Support/Refusal.h"
 

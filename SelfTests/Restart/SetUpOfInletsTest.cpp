@@ -2,9 +2,9 @@
 // changed.
 #include <gtest/gtest.h>
 
-#include "Kernel/Simulation/SuperquadricSimulation.h"
-#include "Kernel/Sizes/SizeLaws.h"
-#include "Kernel/Walls/InfiniteWall.h"
+#include "Kernel/Core/Walls/InfiniteWall.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Scene/SuperquadricSimulation.h"
 #include "SelfTests/Restart/ResumedScenes.h"
 #include "SelfTests/Restart/ResumedWith.h"
 

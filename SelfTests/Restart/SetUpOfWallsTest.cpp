@@ -2,9 +2,9 @@
 // motion, of what drives them, of wear and of membranes is changed.
 #include <gtest/gtest.h>
 
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Walls/Membrane.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Features/Membranes/Membrane.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
+#include "Kernel/Scene/Simulation.h"
 #include "SelfTests/Restart/ResumedWith.h"
 
 namespace pendular::setUpOfWallsTest {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "Kernel/State/Hdf5File.h"
+#include "Kernel/Foundation/State/Hdf5File.h"
 
 namespace pendular::support {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Scene/Simulation.h"
 
 namespace pendular::scenes {
 

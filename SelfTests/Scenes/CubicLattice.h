@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Kernel/Particles/SphericalParticle.h"
+#include "Kernel/Core/Particles/SphericalParticle.h"
 
 namespace pendular::scenes {
 

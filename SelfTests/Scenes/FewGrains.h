@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Scene/Simulation.h"
 
 namespace pendular::scenes {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "Kernel/Base/RunError.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/TestFolder.h"
 

@@ -4,7 +4,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Scene/Simulation.h"
 
 namespace pendular::scenes {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/CubicLattice.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Random.h"

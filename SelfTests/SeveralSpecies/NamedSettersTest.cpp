@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Scene/Simulation.h"
 #include "SelfTests/Support/Refusal.h"
 
 namespace pendular::namedSettersTest {

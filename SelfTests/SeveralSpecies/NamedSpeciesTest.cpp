@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Contacts/SpeciesRegistry.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Features/SpeciesByName/SpeciesRegistry.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"

@@ -7,10 +7,10 @@
 #include <numbers>
 #include <set>
 
-#include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/TestFolder.h"
@@ -193,7 +193,7 @@ std::array<double, 3> rebounds(Set&& set) {
 }
 
 /// At 50 steps a contact the integrator's largest error is 2e-4 of this restitution
-/// (Kernel/Contacts/README.md); here are more. The laws that are told apart are 0.01 from each other.
+/// (Kernel/Core/Contacts/README.md); here are more. The laws that are told apart are 0.01 from each other.
 constexpr double ofSteps = 2e-4 * restitutionOfHertz;
 
 TEST(SeveralSpecies, eachPairReboundsByItsOwnLaw) {

@@ -1,4 +1,4 @@
-#include "Kernel/Shapes/SuperquadricPair.h"
+#include "Kernel/Features/Superquadrics/SuperquadricPair.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Foundation/Math/EigenConversion.h"
 #include "SelfTests/Support/Random.h"
 
 namespace pendular::superquadricPairTest {

@@ -1,4 +1,4 @@
-#include "Kernel/Shapes/Superquadric.h"
+#include "Kernel/Features/Superquadrics/Superquadric.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <numbers>
 #include <vector>
 
-#include "Kernel/Math/EigenConversion.h"
-#include "Kernel/Shapes/CoveringBalls.h"
-#include "Kernel/Shapes/SuperquadricSupport.h"
-#include "Kernel/Shapes/UnionOfSpheres.h"
+#include "Kernel/Features/RigidBodies/UnionOfSpheres.h"
+#include "Kernel/Features/Superquadrics/CoveringBalls.h"
+#include "Kernel/Features/Superquadrics/SuperquadricSupport.h"
+#include "Kernel/Foundation/Math/EigenConversion.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 

@@ -1,6 +1,6 @@
-#include "Kernel/Shapes/UnionOfSpheres.h"
+#include "Kernel/Features/RigidBodies/UnionOfSpheres.h"
 
-#include "Kernel/Shapes/SphereGroups.h"
+#include "Kernel/Features/RigidBodies/SphereGroups.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "Kernel/Shapes/WeldedMesh.h"
+#include "Kernel/Features/Meshes/WeldedMesh.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 

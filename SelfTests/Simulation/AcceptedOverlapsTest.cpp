@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "Drivers/Shared/GrainRows.h"
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 

@@ -17,36 +17,36 @@
 #include <vector>
 
 #include "BuildFolders.h"
-#include "Kernel/CoarseGraining/Clusters.h"
-#include "Kernel/CoarseGraining/FieldOutput.h"
-#include "Kernel/CoarseGraining/MeanStress.h"
-#include "Kernel/CoarseGraining/SceneState.h"
-#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Analysis/CoarseGraining/FieldOutput.h"
+#include "Kernel/Analysis/CoarseGraining/SceneState.h"
+#include "Kernel/Analysis/Observables/Clusters.h"
+#include "Kernel/Analysis/Observables/MeanStress.h"
+#include "Kernel/Analysis/Output/EnergyFile.h"
+#include "Kernel/Analysis/Output/GrainFlowFiles.h"
+#include "Kernel/Analysis/Output/Hdf5Output.h"
+#include "Kernel/Analysis/Output/ParaViewOutput.h"
+#include "Kernel/Analysis/Output/RunSummary.h"
+#include "Kernel/Analysis/Output/SceneBox.h"
+#include "Kernel/Analysis/Output/SceneFields.h"
+#include "Kernel/Analysis/Output/TimedTable.h"
+#include "Kernel/Analysis/Output/WallForceFile.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Core/Particles/PeriodicBox.h"
+#include "Kernel/Core/Step/StepPart.h"
+#include "Kernel/Core/Step/SummaryRows.h"
+#include "Kernel/Foundation/State/RestartFile.h"
+#include "Kernel/Mercury/MercuryOutput.h"
 #include "Kernel/MercuryScene.h"
-#include "Kernel/Output/EnergyFile.h"
-#include "Kernel/Output/GrainFlowFiles.h"
-#include "Kernel/Output/Hdf5Output.h"
-#include "Kernel/Output/MercuryOutput.h"
-#include "Kernel/Output/ParaViewOutput.h"
-#include "Kernel/Output/SceneBox.h"
-#include "Kernel/Output/SceneFields.h"
-#include "Kernel/Output/TimedTable.h"
-#include "Kernel/Output/WallForceFile.h"
-#include "Kernel/Particles/PeriodicBox.h"
-#include "Kernel/Simulation/BridgeAdvice.h"
-#include "Kernel/Simulation/ChosenTimeStep.h"
-#include "Kernel/Simulation/DomainWarnings.h"
-#include "Kernel/Simulation/ListedContacts.h"
-#include "Kernel/Simulation/OverlapEstimate.h"
-#include "Kernel/Simulation/PendularState.h"
-#include "Kernel/Simulation/RunSummary.h"
-#include "Kernel/Simulation/SoftestModulus.h"
-#include "Kernel/Simulation/StepForError.h"
-#include "Kernel/Simulation/SumsOverRanks.h"
-#include "Kernel/Simulation/SuperquadricSimulation.h"
-#include "Kernel/State/RestartFile.h"
-#include "Kernel/Step/StepPart.h"
-#include "Kernel/Step/SummaryRows.h"
+#include "Kernel/Scene/BridgeAdvice.h"
+#include "Kernel/Scene/DomainWarnings.h"
+#include "Kernel/Scene/ListedContacts.h"
+#include "Kernel/Scene/PendularState.h"
+#include "Kernel/Scene/SumsOverRanks.h"
+#include "Kernel/Scene/SuperquadricSimulation.h"
+#include "Kernel/Scene/TimeStep/ChosenTimeStep.h"
+#include "Kernel/Scene/TimeStep/OverlapEstimate.h"
+#include "Kernel/Scene/TimeStep/SoftestModulus.h"
+#include "Kernel/Scene/TimeStep/StepForError.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
@@ -164,12 +164,12 @@ Output plain() {
 /// What the kernel has for scenes, by the headers that declare it.
 std::vector<std::pair<std::string, std::vector<std::pair<std::string, Call>>>> calls() {
     return {
-        {"CoarseGraining/FieldOutput.h",
+        {"Analysis/CoarseGraining/FieldOutput.h",
          {{"write", whole(fields)},
           {"write alone", [](Scene& scene) { fields().write(scene); }},
           {"without contacts", whole([] { return fields().withoutContacts(); })},
           {"visitState", kept(fields)}}},
-        {"CoarseGraining/SceneState.h",
+        {"Analysis/CoarseGraining/SceneState.h",
          {{"takeState",
            [](Scene& scene) {
                GrainState state;
@@ -178,58 +178,58 @@ std::vector<std::pair<std::string, std::vector<std::pair<std::string, Call>>>> c
           {"stateOf", [](Scene& scene) { static_cast<void>(stateOf(scene)); }},
           {"stateOf, without contacts",
            [](Scene& scene) { static_cast<void>(stateOf(scene, FieldContent::WithoutContacts)); }}}},
-        {"CoarseGraining/MeanStress.h",
+        {"Analysis/Observables/MeanStress.h",
          {{"meanStress", [](Scene& scene) { static_cast<void>(meanStress(scene)); }},
           {"of a volume", [](Scene& scene) { static_cast<void>(meanStress(scene, 1e-6)); }}}},
-        {"CoarseGraining/Clusters.h",
+        {"Analysis/Observables/Clusters.h",
          {{"within", [](Scene& scene) { static_cast<void>(clustersWithin(scene, 2.1 * r)); }},
           {"of contacts", [](Scene& scene) { static_cast<void>(clustersOfContacts(scene)); }}}},
-        {"Output/EnergyFile.h",
+        {"Analysis/Output/EnergyFile.h",
          {{"write", whole(plain<EnergyFile>)},
           {"write alone", [](Scene& scene) { EnergyFile().write(scene); }},
           {"visitState", kept(plain<EnergyFile>)}}},
-        {"Output/WallForceFile.h",
+        {"Analysis/Output/WallForceFile.h",
          {{"write", whole(plain<WallForceFile>)},
           {"write alone", [](Scene& scene) { WallForceFile().write(scene); }},
           {"visitState", kept(plain<WallForceFile>)}}},
-        {"Output/GrainFlowFiles.h",
+        {"Analysis/Output/GrainFlowFiles.h",
          {{"inlets", whole(plain<InletFile>)},
           {"outlets", whole(plain<OutletFile>)},
           {"flux", whole(plain<FluxFile>)},
           {"visitState", kept(plain<FluxFile>)}}},
-        {"Output/MercuryOutput.h",
+        {"Mercury/MercuryOutput.h",
          {{"write", whole(plain<MercuryOutput>)},
           {"without energies", whole([] { return MercuryOutput().withEnergies(false); })}}},
-        {"Output/FrameOutput.h",
+        {"Analysis/Output/FrameOutput.h",
          {{"ParaView", whole(plain<ParaViewOutput>)},
           {"ParaView alone", [](Scene& scene) { ParaViewOutput().write(scene); }},
           {"HDF5", whole(plain<Hdf5Output>)},
           {"HDF5 alone", [](Scene& scene) { Hdf5Output().write(scene); }},
           {"visitState", kept(plain<ParaViewOutput>)}}},
-        {"Output/SceneBox.h",
+        {"Analysis/Output/SceneBox.h",
          {{"take",
            [](Scene& scene) {
                SceneBox box;
                box.take(scene);
            }}}},
-        {"Output/SceneFields.h",
+        {"Analysis/Output/SceneFields.h",
          {{"of",
            [](Scene& scene) {
                FrameContent content;
                content.stress = content.contacts = content.contactPoints = true;
                static_cast<void>(content.of(scene));
            }}}},
-        {"Output/TimedTable.h",
+        {"Analysis/Output/TimedTable.h",
          {{"of",
            [](Scene& scene) {
                TimedTable table("Table", "-table.csv", 0);
                table.of(scene, "a,b").row(1, 2);
            }}}},
-        {"Simulation/RunSummary.h",
+        {"Analysis/Output/RunSummary.h",
          {{"write", whole(plain<RunSummary>)},
           {"write alone", [](Scene& scene) { RunSummary().write(scene); }},
           {"complete alone", [](Scene& scene) { RunSummary().complete(scene); }}}},
-        {"Simulation/DomainWarnings.h",
+        {"Scene/DomainWarnings.h",
          {{"domainWarnings", [](Scene& scene) { static_cast<void>(domainWarnings(scene, true)); }},
           {"addWarningsTo",
            [](Scene& scene) {
@@ -238,22 +238,22 @@ std::vector<std::pair<std::string, std::vector<std::pair<std::string, Call>>>> c
            }},
           {"bridgesOutOfDomain",
            [](Scene& scene) { static_cast<void>(bridgesOutOfDomain(scene) + hasBrokenLimits(scene)); }}}},
-        {"Simulation/PendularState.h",
+        {"Scene/PendularState.h",
          {{"pendularState", [](Scene& scene) { static_cast<void>(pendularState(scene, true)); }}}},
-        {"Simulation/SumsOverRanks.h",
+        {"Scene/SumsOverRanks.h",
          {{"over grains",
            [](Scene& scene) { sumOverGrains(scene, [](const GrainReference& g) { return g.getMass(); }); }},
           {"over interactions",
            [](Scene& scene) {
                sumOverInteractions(scene, [](const ObservedContact& seen) { return seen.overlap(); });
            }}}},
-        {"Simulation/ChosenTimeStep.h",
+        {"Scene/TimeStep/ChosenTimeStep.h",
          {{"chosenTimeStep", [](Scene& scene) { static_cast<void>(chosenTimeStep(scene)); }}}},
-        {"Simulation/OverlapEstimate.h",
+        {"Scene/TimeStep/OverlapEstimate.h",
          {{"estimateOverlaps", [](Scene& scene) { static_cast<void>(estimateOverlaps(scene, 100)); }}}},
-        {"Simulation/StepForError.h",
+        {"Scene/TimeStep/StepForError.h",
          {{"findStepForError", [](Scene& scene) { static_cast<void>(findStepForError(scene, 0.1, 1)); }}}},
-        {"Simulation/SoftestModulus.h",
+        {"Scene/TimeStep/SoftestModulus.h",
          {{"softnessOf", [](Scene& scene) { static_cast<void>(softnessOf(scene)); }},
           {"softestModulus",
            [](Scene& scene) {
@@ -262,7 +262,7 @@ std::vector<std::pair<std::string, std::vector<std::pair<std::string, Call>>>> c
                question.figures = {wantedFigure("friction")};
                static_cast<void>(softestModulus(scene, question));
            }}}},
-        {"Simulation/BridgeAdvice.h",
+        {"Scene/BridgeAdvice.h",
          {{"bridgeAdvice",
            [](Scene& scene) {
                if (auto* const one = dynamic_cast<scenes::FewGrains<Bridged>*>(&scene))
@@ -291,10 +291,10 @@ std::vector<std::pair<std::string, std::vector<std::pair<std::string, Call>>>> c
            }}}},
         {"Mercury/MercuryInsertion.h",
          {{"hasRoomFor", [](Scene& scene) { static_cast<void>(hasRoomFor(scene, SphericalParticle())); }}}},
-        {"Simulation/ListedContacts.h",
+        {"Scene/ListedContacts.h",
          {{"requireListedContacts", [](Scene& scene) { requireListedContacts(scene, "a call"); }},
           {"boxOfContacts", [](Scene& scene) { static_cast<void>(boxOfContacts(scene)); }}}},
-        {"Simulation/Scene.h",
+        {"Scene/Scene.h",
          {{"interactions", [](Scene& scene) { static_cast<void>(scene.interactions()); }},
           {"ownInteractions", [](Scene& scene) { static_cast<void>(scene.ownInteractions()); }},
           {"interactionsOf", [](Scene& scene) { static_cast<void>(scene.interactionsOf(0)); }},
@@ -406,8 +406,8 @@ TEST(BeforeTheRun, isAskedOfEachHeaderWithAFunctionOfAScene) {
     const std::vector<std::string> ofSetUp{
         "Mercury/MercuryBoundaries.h", "Mercury/MercuryCopyBoundaries.h",
         "Mercury/MercuryDroplets.h",   "Mercury/MercuryInsertionBoundaries.h",
-        "Mercury/MercuryFiles.h",      "Simulation/OutputForm.h",
-        "Simulation/SceneInside.h"};
+        "Mercury/MercuryFiles.h",      "Scene/OutputForm.h",
+        "Scene/SceneInside.h"};
     std::vector<std::string> asked = ofSetUp;
     for (const auto& [header, ofHeader] : calls()) asked.push_back(header);
     const std::filesystem::path kernel = folders::source / "Kernel";

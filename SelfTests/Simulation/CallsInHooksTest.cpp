@@ -3,12 +3,12 @@
 
 #include <functional>
 
-#include "Kernel/Output/EnergyFile.h"
-#include "Kernel/Output/ParaViewOutput.h"
-#include "Kernel/Output/RunTable.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Laws.h"
-#include "Kernel/State/Hdf5File.h"
+#include "Kernel/Analysis/Output/EnergyFile.h"
+#include "Kernel/Analysis/Output/ParaViewOutput.h"
+#include "Kernel/Analysis/Output/RunTable.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Foundation/State/Hdf5File.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/RunProgram.h"

@@ -6,12 +6,12 @@
 #include <memory>
 #include <numbers>
 
-#include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Contacts/SeveralSpeciesHandler.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Laws.h"
-#include "Kernel/State/RestartFile.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Features/SpeciesByName/SeveralSpeciesHandler.h"
+#include "Kernel/Foundation/State/RestartFile.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/AnyMaterial.h"

@@ -1,12 +1,12 @@
-#include "Kernel/Simulation/Collisions.h"
+#include "Kernel/Scene/Collisions.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Contacts/PopularSpecies.h"
-#include "Kernel/Species/ElasticConstants.h"
+#include "Kernel/Features/PopularSpecies.h"
+#include "Kernel/Laws/Concepts/ElasticConstants.h"
 #include "SelfTests/Papers/IndependentWetCollision.h"
 #include "SelfTests/Species/Normal/IndependentCollisions.h"
 #include "SelfTests/Support/Refusal.h"

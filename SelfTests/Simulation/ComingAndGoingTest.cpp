@@ -3,9 +3,9 @@
 #include <functional>
 #include <memory>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Motion/GrainSizes.h"
-#include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Core/Motion/GrainSizes.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"

@@ -4,13 +4,13 @@
 #include <mutex>
 #include <optional>
 
-#include "Kernel/Ranks/GrainSharing.h"
-#include "Kernel/Ranks/VirtualRanks.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Features/DomainDecomposition/GrainSharing.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
+#include "Tools/Reference/VirtualRanks.h"
 
 // A run ends where two grains overlap too deeply. This is looked at whenever grains can have approached by a
 // tenth of the smallest radius, and only where what the forces have seen does not exclude it. The reference

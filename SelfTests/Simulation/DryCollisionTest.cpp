@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/Collision.h"
 #include "SelfTests/Species/Normal/IndependentCollisions.h"
 

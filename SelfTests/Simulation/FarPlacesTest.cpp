@@ -5,13 +5,13 @@
 #include <fstream>
 #include <numbers>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Particles/GrainFile.h"
-#include "Kernel/Particles/Resolution.h"
-#include "Kernel/Sizes/SizeLaws.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
-#include "Kernel/State/RestartFile.h"
+#include "Kernel/Core/Particles/Resolution.h"
+#include "Kernel/Features/GrainFiles/GrainFile.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Foundation/State/RestartFile.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Fuzz/EditedState.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"

@@ -4,10 +4,10 @@
 #include <numbers>
 #include <string>
 
-#include "Kernel/Motion/StabilityLimit.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Friction/SlidingFriction.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Core/Motion/StabilityLimit.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 

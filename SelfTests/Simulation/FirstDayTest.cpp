@@ -2,7 +2,7 @@
 // right.
 #include <gtest/gtest.h>
 
-#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Scene/Simulation.h"
 #include "SelfTests/Support/Refusal.h"
 
 namespace pendular::firstDayTest {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 
 namespace pendular::freeFlightTest {

@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
-#include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeBagheri.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 
 namespace pendular::goldenHashTest {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <memory>
 
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Scene/Simulation.h"
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Support/Refusal.h"
 

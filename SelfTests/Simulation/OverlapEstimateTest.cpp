@@ -3,12 +3,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Simulation/OverlapEstimate.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Friction/MindlinRollingTorsion.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Friction/MindlinRollingTorsion.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/TimeStep/OverlapEstimate.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"

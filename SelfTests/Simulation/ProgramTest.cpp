@@ -1,13 +1,13 @@
-#include "Kernel/Simulation/Program.h"
+#include "Kernel/Core/Run/Program.h"
 
 #include <gtest/gtest.h>
 
 #include <csignal>
 #include <functional>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/Simulation.h"
 #include "SelfTests/Support/Refusal.h"
 
 namespace pendular::programTest {

@@ -2,10 +2,10 @@
 
 #include <functional>
 
-#include "Kernel/Energy/EnergyLedger.h"
+#include "Kernel/Features/EnergyLedger/EnergyLedger.h"
+#include "Kernel/Foundation/State/Random.h"
 #include "Kernel/MercuryNames.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/State/Random.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Support/Refusal.h"
 

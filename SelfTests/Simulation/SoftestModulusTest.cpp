@@ -1,4 +1,4 @@
-#include "Kernel/Simulation/SoftestModulus.h"
+#include "Kernel/Scene/TimeStep/SoftestModulus.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <numbers>
 #include <tuple>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Simulation/ChosenTimeStep.h"
-#include "Kernel/Species/Friction/MindlinRollingTorsion.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Laws/Friction/MindlinRollingTorsion.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Scene/TimeStep/ChosenTimeStep.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 

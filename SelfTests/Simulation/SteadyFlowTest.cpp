@@ -2,11 +2,11 @@
 
 #include <deque>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeBagheri.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 

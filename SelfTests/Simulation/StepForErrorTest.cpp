@@ -1,4 +1,4 @@
-#include "Kernel/Simulation/StepForError.h"
+#include "Kernel/Scene/TimeStep/StepForError.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <functional>
 #include <set>
 
-#include "Kernel/Base/Host.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Foundation/Base/Host.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 
@@ -96,8 +96,8 @@ TEST(StepForError, keepsToTheErrorThatIsAskedFor) {
         }
 }
 
-// 10 steps a contact give 1 %, and 26 give 0.1 %, of head-on collisions (Kernel/Motion/README.md, found by
-// another program); the step is one of a ladder of 1.25, and the last of its rung.
+// 10 steps a contact give 1 %, and 26 give 0.1 %, of head-on collisions (Kernel/Core/Motion/README.md, found
+// by another program); the step is one of a ladder of 1.25, and the last of its rung.
 TEST(StepForError, isThatOfTheChartOfCollisions) {
     TwoGrains<LinearViscoelasticSpecies> scene(linear());
     const double contact = linearContactTime(1e4, linear().getDissipation(), massOfGrain / 2);

@@ -1,4 +1,4 @@
-#include "Kernel/Simulation/StepForFigure.h"
+#include "Kernel/Scene/TimeStep/StepForFigure.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <random>
 #include <vector>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Simulation/ChosenTimeStep.h"
-#include "Kernel/Simulation/SoftestModulus.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Scene/TimeStep/ChosenTimeStep.h"
+#include "Kernel/Scene/TimeStep/SoftestModulus.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <tuple>
 
-#include "Kernel/Sizes/SizeDistribution.h"
-#include "Kernel/Sizes/SizeLaws.h"
-#include "Kernel/Sizes/SizeTable.h"
+#include "Kernel/Features/SizeDistributions/SizeDistribution.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Features/SizeDistributions/SizeTable.h"
 #include "SelfTests/Support/CsvRows.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/RunProgram.h"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "Kernel/Sizes/SizeLaws.h"
-#include "Kernel/Sizes/SizeSample.h"
-#include "Kernel/Sizes/SizeTable.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Features/SizeDistributions/SizeSample.h"
+#include "Kernel/Features/SizeDistributions/SizeTable.h"
 #include "SelfTests/Support/Refusal.h"
 
 namespace pendular::sizeSampleTest {

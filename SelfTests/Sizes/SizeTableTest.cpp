@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "Kernel/Sizes/SizeTable.h"
+#include "Kernel/Features/SizeDistributions/SizeTable.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TemporaryFile.h"
 

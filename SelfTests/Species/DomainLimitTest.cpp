@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "Kernel/Species/DomainLimit.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Laws/Concepts/DomainLimit.h"
 
 namespace pendular::domainLimitTest {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
 #include "SelfTests/Support/Draw.h"
 #include "SelfTests/Support/EveryLaw.h"
 #include "SelfTests/Support/RandomLaw.h"

@@ -1,9 +1,9 @@
-#include "Kernel/Species/ElasticConstants.h"
+#include "Kernel/Laws/Concepts/ElasticConstants.h"
 
 #include <gtest/gtest.h>
 
-#include "Kernel/Contacts/SeveralSpeciesHandler.h"
-#include "Kernel/Species/AnySpecies.h"
+#include "Kernel/Features/SpeciesByName/SeveralSpeciesHandler.h"
+#include "Kernel/Laws/Species/AnySpecies.h"
 #include "SelfTests/Support/Refusal.h"
 
 // E* and G* of a material: 1/E* = 2 (1 - nu^2) / E, 1/G* = 2 (2 - nu) 2 (1 + nu) / E.

@@ -61,7 +61,7 @@ HertzianViscoelasticMindlinSpecies drySpecies() {
 #include <numbers>
 #include <type_traits>
 
-#include "Kernel/Species/SpeciesHandler.h"
+#include "Kernel/Laws/Species/SpeciesHandler.h"
 
 namespace {
 

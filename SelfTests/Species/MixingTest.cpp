@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Species/SpeciesHandler.h"
+#include "Kernel/Laws/Species/SpeciesHandler.h"
 #include "SelfTests/Support/Draw.h"
 #include "SelfTests/Support/EveryLaw.h"
 #include "SelfTests/Support/RandomLaw.h"

@@ -2,10 +2,10 @@
 
 #include <type_traits>
 
-#include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Contacts/ParticleSum.h"
-#include "Kernel/Contacts/SpeciesLaws.h"
-#include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/ParticleSum.h"
+#include "Kernel/Core/Contacts/SpeciesLaws.h"
+#include "Kernel/Core/Particles/ParticleStore.h"
 #include "SelfTests/Support/EveryLaw.h"
 
 // A scene pays, in time and in memory, only for the physics in it.

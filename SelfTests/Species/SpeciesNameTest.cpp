@@ -4,7 +4,7 @@
 #include <string>
 #include <type_traits>
 
-#include "Kernel/Species/LawNames.h"
+#include "Kernel/Laws/Species/LawNames.h"
 #include "SelfTests/Support/EveryLaw.h"
 #include "SelfTests/Support/Refusal.h"
 

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "Kernel/Simulation/BridgeAdvice.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeYoungLaplace.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeWillett.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeYoungLaplace.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/BridgeAdvice.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 

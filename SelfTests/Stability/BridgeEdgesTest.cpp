@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "Kernel/Capillary/CapillaryBridge.h"
-#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
+#include "Kernel/Features/LiquidBridges/YoungLaplace/CapillaryBridge.h"
 #include "SelfTests/Support/Bridges.h"
 #include "SelfTests/Support/Draw.h"
 #include "SelfTests/Support/Refusal.h"

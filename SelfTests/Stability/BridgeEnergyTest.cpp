@@ -4,9 +4,9 @@
 #include <numbers>
 #include <utility>
 
-#include "Kernel/Math/GaussLegendre.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeYoungLaplace.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeYoungLaplace.h"
+#include "Kernel/Foundation/Math/GaussLegendre.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/Collision.h"
 
 // The exact bridge above 90 degrees between two elastic grains: it pushes near contact (pinned contact lines)

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Scene/Simulation.h"
 
 namespace pendular::inclinedPlaneTest {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "Kernel/Species/Friction/SlidingFriction.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
 
 namespace pendular::stickSlipSliderTest {
 namespace {

@@ -1,4 +1,4 @@
-#include "Kernel/Step/Conflicts.h"
+#include "Kernel/Core/Step/Conflicts.h"
 
 #include <gtest/gtest.h>
 
@@ -7,15 +7,15 @@
 #include <sstream>
 
 #include "BuildFolders.h"
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Base/RunError.h"
+#include "Kernel/Features/CurvedWalls/InfiniteCylinder.h"
+#include "Kernel/Features/Membranes/Membrane.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "Kernel/MercuryNames.h"
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Simulation/SuperquadricSimulation.h"
-#include "Kernel/Sizes/SizeLaws.h"
-#include "Kernel/Walls/InfiniteCylinder.h"
-#include "Kernel/Walls/Membrane.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Scene/Simulation.h"
+#include "Kernel/Scene/SuperquadricSimulation.h"
 #include "SelfTests/Support/AnyMaterial.h"
 #include "SelfTests/Support/Refusal.h"
 
@@ -287,7 +287,7 @@ TEST(Conflicts, tellWhichWallOrGrainItIs) {
 }
 
 TEST(Conflicts, areThoseOfThePage) {
-    std::ifstream file(folders::source / "Kernel/Step/README.md");
+    std::ifstream file(folders::source / "Kernel/Core/Step/README.md");
     std::stringstream page;
     page << file.rdbuf();
     EXPECT_NE(page.str().find(conflictMatrix()), std::string::npos) << "The page should have this:\n\n"

@@ -1,14 +1,14 @@
-#include "Kernel/Step/StepList.h"
+#include "Kernel/Core/Step/StepList.h"
 
 #include <gtest/gtest.h>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Base/RunError.h"
+#include "Kernel/Core/Step/SummaryRows.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Foundation/State/StateArchive.h"
 #include "Kernel/MercuryNames.h"
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/State/StateArchive.h"
-#include "Kernel/Step/SummaryRows.h"
+#include "Kernel/Scene/Simulation.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"

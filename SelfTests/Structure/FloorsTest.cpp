@@ -59,10 +59,10 @@ TEST(Floors, includeOnlyFromTheirOwnOrOneBelow) {
 
 // Else a change of the scene's header compiles all again that uses an output.
 TEST(Floors, headersOfOutputsOnlyNameTheScene) {
-    const std::regex scene(R"(^\s*#\s*include "Kernel/Simulation/(Scene|Simulation)\.h".*)");
+    const std::regex scene(R"(^\s*#\s*include "Kernel/Scene/(Scene|Simulation)\.h".*)");
     std::size_t headers = 0;
     std::string including;
-    for (const std::string folder : {"Output", "CoarseGraining"})
+    for (const std::string folder : {"Analysis/Output", "Analysis/CoarseGraining"})
         for (const auto& entry : std::filesystem::directory_iterator(kernel / folder)) {
             if (entry.path().extension() != ".h") continue;
             ++headers;

@@ -34,12 +34,12 @@ bool isOfPrograms(const fs::path& path) {
 }
 
 TEST(PrintedTexts, pathsAreSeenInTextsAlone) {
-    EXPECT_TRUE(namesPath(R"(throw InputError("see Kernel/Output/README.md");)", false));
+    EXPECT_TRUE(namesPath(R"(throw InputError("see Kernel/Analysis/Output/README.md");)", false));
     EXPECT_TRUE(namesPath(R"("http://localhost and Tools/view.sh")", false));
-    EXPECT_TRUE(namesPath("    \"\"\"All tables (Kernel/Output/README.md).\"\"\"", true));
-    EXPECT_FALSE(namesPath(R"(#include "Kernel/Base/Host.h")", false));
-    EXPECT_FALSE(namesPath("int a;  // see Kernel/Base/Host.h", false));
-    EXPECT_FALSE(namesPath("a = 1  # see Kernel/Base/Host.h", true));
+    EXPECT_TRUE(namesPath("    \"\"\"All tables (Kernel/Analysis/Output/README.md).\"\"\"", true));
+    EXPECT_FALSE(namesPath(R"(#include "Kernel/Foundation/Base/Host.h")", false));
+    EXPECT_FALSE(namesPath("int a;  // see Kernel/Foundation/Base/Host.h", false));
+    EXPECT_FALSE(namesPath("a = 1  # see Kernel/Foundation/Base/Host.h", true));
 }
 
 // Files move; what a program has printed or written stays. A page is named by what it is about, a header

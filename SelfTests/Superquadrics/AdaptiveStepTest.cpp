@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <numbers>
 
-#include "Kernel/Math/CountedRandom.h"
-#include "Kernel/Parts/AdaptiveStep.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/State/Hdf5File.h"
+#include "Kernel/Features/AdaptiveTimeStep/AdaptiveStep.h"
+#include "Kernel/Foundation/Math/CountedRandom.h"
+#include "Kernel/Foundation/State/Hdf5File.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
 #include "SelfTests/Support/TestFolder.h"

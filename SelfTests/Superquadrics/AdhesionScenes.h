@@ -7,8 +7,8 @@
 #include <numbers>
 #include <utility>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
 
 // Scenes in which superquadrics attract each other and walls.

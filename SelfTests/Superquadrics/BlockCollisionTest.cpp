@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Output/ShapeFields.h"
-#include "Kernel/Walls/InfiniteCylinder.h"
+#include "Kernel/Analysis/Output/ShapeFields.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/CurvedWalls/InfiniteCylinder.h"
 #include "SelfTests/Restart/SameBits.h"
 #include "SelfTests/Superquadrics/FewBlocks.h"
 #include "SelfTests/Support/LedgerError.h"

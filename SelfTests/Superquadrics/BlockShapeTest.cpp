@@ -4,8 +4,8 @@
 #include <functional>
 #include <numbers>
 
-#include "Kernel/Math/CountedRandom.h"
-#include "Kernel/Shapes/RoundedBoxTouch.h"
+#include "Kernel/Features/Superquadrics/RoundedBoxTouch.h"
+#include "Kernel/Foundation/Math/CountedRandom.h"
 #include "SelfTests/Support/Refusal.h"
 
 // Rounded boxes: their mass, and that what they touch with has a potential.

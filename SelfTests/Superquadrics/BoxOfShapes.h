@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "Kernel/Math/CountedRandom.h"
+#include "Kernel/Foundation/Math/CountedRandom.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
 
 namespace pendular::scenes {

@@ -3,14 +3,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Contacts/LocalBodies.h"
-#include "Kernel/Shapes/SuperquadricSupport.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeLambert.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeYoungLaplace.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Core/Contacts/LocalBodies.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeBagheri.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeLambert.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeWillett.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeYoungLaplace.h"
+#include "Kernel/Features/Superquadrics/SuperquadricSupport.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
 #include "SelfTests/Restart/SameBits.h"
 #include "SelfTests/Superquadrics/AdhesionScenes.h"
 #include "SelfTests/Superquadrics/BoxOfShapes.h"

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "Kernel/Simulation/SuperquadricSimulation.h"
-#include "Kernel/Species/Friction/SlidingFriction.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/SuperquadricSimulation.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
 
 namespace pendular::scenes {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "Kernel/Simulation/SuperquadricSimulation.h"
+#include "Kernel/Scene/SuperquadricSimulation.h"
 
 namespace pendular::scenes {
 

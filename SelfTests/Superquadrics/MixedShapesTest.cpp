@@ -2,13 +2,13 @@
 
 #include <cmath>
 
-#include "Kernel/CoarseGraining/FieldOutput.h"
-#include "Kernel/CoarseGraining/SceneState.h"
-#include "Kernel/Particles/ClumpTemplate.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Analysis/CoarseGraining/FieldOutput.h"
+#include "Kernel/Analysis/CoarseGraining/SceneState.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
+#include "Kernel/Features/RigidBodies/ClumpTemplate.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
 

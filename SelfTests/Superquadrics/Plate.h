@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Kernel/Walls/RigidWall.h"
+#include "Kernel/Core/Walls/RigidWall.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
 
 namespace pendular::scenes {

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Species/Friction/MindlinRollingTorsion.h"
-#include "Kernel/Species/Friction/SlidingRollingTorsion.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Laws/Friction/MindlinRollingTorsion.h"
+#include "Kernel/Laws/Friction/SlidingRollingTorsion.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Restart/SameBits.h"
 #include "SelfTests/Superquadrics/BoxOfShapes.h"
 #include "SelfTests/Superquadrics/SameAsSpheres.h"

@@ -1,4 +1,4 @@
-#include "Kernel/Superquadrics/ShapeAtWall.h"
+#include "Kernel/Features/Superquadrics/ShapeAtWall.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <numbers>
 #include <vector>
 
-#include "Kernel/Superquadrics/ExtremeContact.h"
-#include "Kernel/Walls/InfiniteCylinder.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Features/CurvedWalls/InfiniteCylinder.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
+#include "Kernel/Features/Superquadrics/ExtremeContact.h"
 #include "SelfTests/Support/Random.h"
 
 // Where superquadrics touch walls: against poses that were computed independently, and against the least of

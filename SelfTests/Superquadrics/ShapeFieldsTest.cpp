@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "Kernel/Output/ParaViewOutput.h"
-#include "Kernel/Output/ShapeFields.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
-#include "Kernel/Superquadrics/ExtremeContact.h"
+#include "Kernel/Analysis/Output/ParaViewOutput.h"
+#include "Kernel/Analysis/Output/ShapeFields.h"
+#include "Kernel/Features/Superquadrics/ExtremeContact.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
 #include "SelfTests/Support/TestFolder.h"
 #include "Tools/Snapshot/Compose.h"

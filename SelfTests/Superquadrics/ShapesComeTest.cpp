@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Sizes/SizeLaws.h"
-#include "Kernel/Sizes/SizeTable.h"
-#include "Kernel/Species/Friction/SlidingFriction.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Features/SizeDistributions/SizeTable.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Insertion/ClumpScene.h"
 #include "SelfTests/Restart/SameBits.h"
 #include "SelfTests/Scenes/FewGrains.h"

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Species/Friction/SlidingFriction.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
-#include "Kernel/Superquadrics/ExtremeContact.h"
-#include "Kernel/Walls/InfiniteCylinder.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Features/CurvedWalls/InfiniteCylinder.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
+#include "Kernel/Features/Superquadrics/ExtremeContact.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
 #include "SelfTests/Support/Random.h"
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Species/Friction/SlidingFriction.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
-#include "Kernel/State/Random.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Foundation/State/Random.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
 

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "Kernel/CoarseGraining/MeanStress.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Parts/StressServo.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Analysis/Observables/MeanStress.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/ShearAndStrain/StressServo.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
 

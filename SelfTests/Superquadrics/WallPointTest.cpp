@@ -2,10 +2,10 @@
 // mean stress and the field of it between two planes are the force on a plane over its area.
 #include <gtest/gtest.h>
 
-#include "Kernel/CoarseGraining/FieldSums.h"
-#include "Kernel/CoarseGraining/MeanStress.h"
-#include "Kernel/CoarseGraining/SceneState.h"
-#include "Kernel/Output/SceneFields.h"
+#include "Kernel/Analysis/CoarseGraining/FieldSums.h"
+#include "Kernel/Analysis/CoarseGraining/SceneState.h"
+#include "Kernel/Analysis/Observables/MeanStress.h"
+#include "Kernel/Analysis/Output/SceneFields.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Superquadrics/FewBlocks.h"
 

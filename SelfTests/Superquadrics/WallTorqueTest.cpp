@@ -3,9 +3,9 @@
 #include <array>
 #include <cmath>
 
-#include "Kernel/Species/Friction/SlidingFriction.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Superquadrics/Plate.h"
 #include "SelfTests/Support/LedgerError.h"

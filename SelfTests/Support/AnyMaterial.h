@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Laws.h"
 
 namespace pendular::support {
 

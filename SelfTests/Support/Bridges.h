@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "Kernel/Species/BridgeLaws.h"
+#include "Kernel/Scene/BridgeLaws.h"
 
 namespace pendular::support {
 

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
 
 namespace pendular::support {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Kernel/Species/Law.h"
+#include "Kernel/Laws/Concepts/Law.h"
 
 namespace pendular::support {
 

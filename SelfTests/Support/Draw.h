@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Foundation/Math/EigenConversion.h"
 #include "SelfTests/Support/Random.h"
 
 namespace pendular::support {

@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "Kernel/Species/BridgeLaws.h"
+#include "Kernel/Scene/BridgeLaws.h"
 
 namespace pendular::support {
 

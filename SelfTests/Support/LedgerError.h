@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "Kernel/Energy/EnergyLedger.h"
+#include "Kernel/Features/EnergyLedger/EnergyLedger.h"
 
 namespace pendular::support {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "Kernel/Contacts/LiquidStep.h"
+#include "Kernel/Features/LiquidTransport/LiquidStep.h"
 
 namespace pendular::support {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
 
 namespace pendular::support {
 

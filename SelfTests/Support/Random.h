@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/State/Random.h"
+#include "Kernel/Foundation/State/Random.h"
 
 namespace pendular::support {
 

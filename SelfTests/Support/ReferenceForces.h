@@ -3,9 +3,9 @@
 #include <map>
 #include <vector>
 
-#include "Kernel/Contacts/SampleTiming.h"
-#include "Kernel/Motion/TimeIntegration.h"
-#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Core/Contacts/SampleTiming.h"
+#include "Kernel/Core/Motion/TimeIntegration.h"
+#include "Kernel/Scene/Simulation.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/ContactKey.h"
 

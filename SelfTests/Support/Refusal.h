@@ -5,7 +5,7 @@
 #include <cctype>
 #include <string>
 
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 
 namespace pendular::support {
 

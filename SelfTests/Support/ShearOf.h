@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Kernel/Particles/LeesEdwards.h"
+#include "Kernel/Features/ShearAndStrain/LeesEdwards.h"
 
 namespace pendular::support {
 

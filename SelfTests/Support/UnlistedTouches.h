@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Simulation/Scene.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Scene/Scene.h"
 
 namespace pendular::support {
 

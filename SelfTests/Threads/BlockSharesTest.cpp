@@ -1,4 +1,4 @@
-#include "Kernel/Contacts/BlockShares.h"
+#include "Kernel/Core/Contacts/BlockShares.h"
 
 #include <gtest/gtest.h>
 

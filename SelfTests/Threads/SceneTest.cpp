@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Scenes/ShearedCloud.h"
 

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "Kernel/Base/Parallel.h"
+#include "Kernel/Foundation/Base/Parallel.h"
 
 // How work is shared by threads.
 

@@ -9,9 +9,9 @@
 #include <fstream>
 #include <thread>
 
-#include "Kernel/Output/FieldFile.h"
-#include "Kernel/Output/PolyData.h"
-#include "Kernel/State/Hdf5File.h"
+#include "Kernel/Analysis/Output/FieldFile.h"
+#include "Kernel/Analysis/Output/PolyData.h"
+#include "Kernel/Foundation/State/Hdf5File.h"
 #include "SelfTests/Support/TestFolder.h"
 #include "Tools/View/Api.h"
 #include "Tools/View/NameText.h"

@@ -135,8 +135,8 @@ def shared(name):
 
 
 def sealed(content):
-    """As a restart file of today's format, with the checksum of what it has (Kernel/State/RestartFile.cpp)."""
-    header = pathlib.Path(__file__).parents[2] / "Kernel/State/RestartFile.h"
+    """As a restart file of today's format, with the checksum of what it has (Kernel/Foundation/State/RestartFile.cpp)."""
+    header = pathlib.Path(__file__).parents[2] / "Kernel/Foundation/State/RestartFile.h"
     form = re.search(r"restartFormat = (\d+)", header.read_text())[1]
     checksum, rest = 0xcbf29ce484222325, content[512:]
     for (word,) in struct.iter_unpack("<Q", rest + bytes(-len(rest) % 8)):

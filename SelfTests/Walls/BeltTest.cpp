@@ -3,8 +3,8 @@
 #include <functional>
 #include <memory>
 
-#include "Kernel/Walls/AxisymmetricWall.h"
-#include "Kernel/Walls/InfiniteCylinder.h"
+#include "Kernel/Features/CurvedWalls/AxisymmetricWall.h"
+#include "Kernel/Features/CurvedWalls/InfiniteCylinder.h"
 #include "SelfTests/Walls/WallScene.h"
 
 // A belt, whose surface runs while its shape stays, drags grains along and never pushes them: it cannot, as

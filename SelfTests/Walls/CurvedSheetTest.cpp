@@ -1,4 +1,4 @@
-#include "Kernel/Walls/CurvedSheet.h"
+#include "Kernel/Features/CurvedWalls/CurvedSheet.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <memory>
 #include <numbers>
 
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/State/Random.h"
+#include "Kernel/Foundation/State/Random.h"
+#include "Kernel/Scene/Simulation.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 

@@ -1,11 +1,11 @@
 // Planes that are moved by forces, and what a run changes of them: loads, grains that go, restarts.
 #include <gtest/gtest.h>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Sizes/SizeLaws.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"

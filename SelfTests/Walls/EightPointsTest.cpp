@@ -6,10 +6,10 @@
 #include <memory>
 #include <type_traits>
 
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
-#include "Kernel/Walls/AxisymmetricWall.h"
-#include "Kernel/Walls/InfiniteCylinder.h"
+#include "Kernel/Features/CurvedWalls/AxisymmetricWall.h"
+#include "Kernel/Features/CurvedWalls/InfiniteCylinder.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeBagheri.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Walls/WallScene.h"
 

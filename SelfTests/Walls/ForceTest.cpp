@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "Kernel/Output/WallForceFile.h"
-#include "Kernel/Walls/AxisymmetricWall.h"
-#include "Kernel/Walls/InfiniteWall.h"
+#include "Kernel/Analysis/Output/WallForceFile.h"
+#include "Kernel/Core/Walls/InfiniteWall.h"
+#include "Kernel/Features/CurvedWalls/AxisymmetricWall.h"
 #include "SelfTests/Support/CsvRows.h"
 #include "SelfTests/Support/Quantum.h"
 #include "SelfTests/Support/RunProgram.h"

@@ -1,4 +1,4 @@
-#include "Kernel/Walls/IntersectionOfHalfSpaces.h"
+#include "Kernel/Features/Meshes/IntersectionOfHalfSpaces.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "Kernel/Walls/InfiniteWall.h"
+#include "Kernel/Core/Walls/InfiniteWall.h"
 #include "SelfTests/Support/AnyMaterial.h"
 #include "SelfTests/Support/EveryLaw.h"
 #include "SelfTests/Walls/WallScene.h"

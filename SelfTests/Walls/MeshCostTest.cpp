@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Walls/InfiniteWall.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Core/Walls/InfiniteWall.h"
 #include "SelfTests/Walls/WallScene.h"
 
 namespace pendular::meshCostTest {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Walls/PolygonMesh.h"
+#include "Kernel/Features/Meshes/PolygonMesh.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TemporaryFile.h"

@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
 #include "BuildFolders.h"
-#include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
-#include "Kernel/Walls/InfiniteCylinder.h"
-#include "Kernel/Walls/InfiniteWall.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Core/Walls/InfiniteWall.h"
+#include "Kernel/Features/CurvedWalls/InfiniteCylinder.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeWillett.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/SharedData.h"

@@ -1,7 +1,7 @@
 // A floor of several walls at one level, whose edges meet to round-off, is one plane: no call joins them.
 #include <gtest/gtest.h>
 
-#include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeWillett.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Walls/SeamScene.h"
 

@@ -4,12 +4,12 @@
 #include <Eigen/Eigenvalues>
 #include <numbers>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Friction/SlidingFriction.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
-#include "Kernel/Walls/AxisymmetricWall.h"
-#include "Kernel/Walls/PlaneDrive.h"
+#include "Kernel/Features/CurvedWalls/AxisymmetricWall.h"
+#include "Kernel/Features/MovingWalls/PlaneDrive.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "BuildFolders.h"
-#include "Kernel/Walls/TriangleReader.h"
+#include "Kernel/Features/Meshes/TriangleReader.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/SharedData.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "Kernel/Species/Laws.h"
-#include "Kernel/State/StateArchive.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Foundation/State/StateArchive.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"

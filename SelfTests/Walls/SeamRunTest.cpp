@@ -2,10 +2,10 @@
 // ledger, threads and restarts.
 #include <gtest/gtest.h>
 
-#include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeWillett.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Support/Quantum.h"
 #include "SelfTests/Support/TestFolder.h"
 #include "SelfTests/Walls/SeamScene.h"

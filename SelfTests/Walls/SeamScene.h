@@ -2,9 +2,9 @@
 
 #include <cstdio>
 
-#include "Kernel/Walls/AxisymmetricWall.h"
-#include "Kernel/Walls/InfiniteCylinder.h"
-#include "Kernel/Walls/InfiniteWall.h"
+#include "Kernel/Core/Walls/InfiniteWall.h"
+#include "Kernel/Features/CurvedWalls/AxisymmetricWall.h"
+#include "Kernel/Features/CurvedWalls/InfiniteCylinder.h"
 #include "SelfTests/Walls/WallScene.h"
 
 /// Surfaces that continue each other, though not to the last bit, and edges that are real.

@@ -1,10 +1,10 @@
 // Surfaces that continue each other, though not to the last bit, are one: a crack counts as one contact where
-// it is narrow against the contact, and edges that are real stay what they are (Kernel/Contacts/
-// ContactPatch.h).
+// it is narrow against the contact, and edges that are real stay what they are
+// (Kernel/Features/Meshes/ContactPatch.h).
 #include <gtest/gtest.h>
 
-#include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
-#include "Kernel/Walls/WallSeams.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeWillett.h"
+#include "Kernel/Features/Meshes/WallSeams.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Walls/SeamScene.h"

@@ -1,13 +1,13 @@
-// Planes that follow the force on them: servos. Kernel/Particles/Servo.h has the law, whose closed forms are
-// tested in SelfTests/Math.
+// Planes that follow the force on them: servos. Kernel/Features/Servos/Servo.h has the law, whose closed
+// forms are tested in SelfTests/Math.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Friction/SlidingFriction.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/TestFolder.h"

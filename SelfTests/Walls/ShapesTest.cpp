@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "Kernel/Walls/AxisymmetricWall.h"
-#include "Kernel/Walls/InfiniteCylinder.h"
-#include "Kernel/Walls/InfiniteWall.h"
+#include "Kernel/Core/Walls/InfiniteWall.h"
+#include "Kernel/Features/CurvedWalls/AxisymmetricWall.h"
+#include "Kernel/Features/CurvedWalls/InfiniteCylinder.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Walls/WallScene.h"

@@ -1,8 +1,8 @@
 // The mean stress of grains at rest is the traction at the walls that hold them.
 #include <gtest/gtest.h>
 
-#include "Kernel/CoarseGraining/MeanStress.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Analysis/Observables/MeanStress.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 
 namespace pendular::tractionTest {

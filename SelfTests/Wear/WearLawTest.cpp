@@ -1,5 +1,5 @@
 // The laws alone, and what is refused.
-#include "Kernel/Walls/WearLaw.h"
+#include "Kernel/Features/Wear/WearLaw.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Grains on walls that count what is worn off them.
 #include <gtest/gtest.h>
 
-#include "Kernel/Output/SceneFields.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Friction/MindlinIncremental.h"
+#include "Kernel/Analysis/Output/SceneFields.h"
+#include "Kernel/Laws/Friction/MindlinIncremental.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Support/TestFolder.h"
 #include "SelfTests/Wear/WearScene.h"
 

@@ -1,12 +1,12 @@
 // Which triangle of a plane counts the wear at a point, against closed forms.
-#include "Kernel/Walls/WornTriangles.h"
+#include "Kernel/Features/Meshes/WornTriangles.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/State/Random.h"
+#include "Kernel/Foundation/State/Random.h"
 
 namespace pendular::wornTrianglesTest {
 namespace {

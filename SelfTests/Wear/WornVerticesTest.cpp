@@ -1,9 +1,9 @@
-#include "Kernel/Walls/WornVertices.h"
+#include "Kernel/Features/Meshes/WornVertices.h"
 
 #include <gtest/gtest.h>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 #include "SelfTests/Wear/WearScene.h"

@@ -4,14 +4,14 @@
 #include <numbers>
 #include <optional>
 
-#include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Adhesion/CombinedLaws.h"
-#include "Kernel/Species/BridgeLaws.h"
-#include "Kernel/Species/Friction/MindlinSecant.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/State/Random.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/CombinedLaws.h"
+#include "Kernel/Foundation/State/Random.h"
+#include "Kernel/Laws/Friction/MindlinSecant.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Scene/BridgeLaws.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/GrainCloud.h"
 #include "SelfTests/Support/Refusal.h"

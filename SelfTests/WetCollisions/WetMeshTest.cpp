@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "Drivers/Shared/WetWallImpact.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
 
 // A wet wall that is a mesh: grains that hit it where its triangles and parts meet collide as with a plane,
 // by one contact.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "Drivers/Shared/WetWallImpact.h"
-#include "Kernel/State/Random.h"
+#include "Kernel/Foundation/State/Random.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/SharedData.h"
 

@@ -12,10 +12,10 @@ if(PENDULAR_MPI)
 endif()
 
 set(moduleFolder "${CMAKE_INSTALL_LIBDIR}/pendular")
-set_source_files_properties(Kernel/Ranks/ProgramRanks.cpp PROPERTIES COMPILE_DEFINITIONS
+set_source_files_properties(Kernel/Core/Ranks/ProgramRanks.cpp PROPERTIES COMPILE_DEFINITIONS
     "PENDULAR_MPI_MODULE=\"${PROJECT_BINARY_DIR}/PendularMpi.so\";PENDULAR_INSTALLED_MPI_MODULE=\"${CMAKE_INSTALL_PREFIX}/${moduleFolder}/PendularMpi.so\"")
 if(hasMpi)
-    add_library(PendularMpi MODULE Kernel/Ranks/Mpi/MpiRanks.cpp)
+    add_library(PendularMpi MODULE Kernel/Features/DomainDecomposition/Mpi/MpiRanks.cpp)
     set_target_properties(PendularMpi PROPERTIES PREFIX "" SUFFIX .so
                           LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
     target_compile_features(PendularMpi PRIVATE cxx_std_20)

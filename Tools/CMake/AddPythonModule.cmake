@@ -27,7 +27,7 @@ file(CONFIGURE OUTPUT "${pythonGenerated}/ShapedSpecies.h" @ONLY CONTENT [[
 
 // Written by CMake from PENDULAR_PYTHON_SHAPED_SPECIES.
 
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Laws.h"
 
 namespace pendular {
 

@@ -39,7 +39,7 @@ function(pendular_add_self_test folder sources)
         list(FILTER sources EXCLUDE REGEX "/LatticeBoltzmann/")
     endif()
     add_executable(${name} ${sources})
-    target_link_libraries(${name} PRIVATE SpeciesOfTests $<TARGET_NAME_IF_EXISTS:PendularDrivers> Pendular::Kernel
+    target_link_libraries(${name} PRIVATE SpeciesOfTests PendularReference $<TARGET_NAME_IF_EXISTS:PendularDrivers> Pendular::Kernel
                           GTest::gtest_main)
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/SelfTests")
     # Many small files with the same includes and species: together they compile in a sixth of the time.
@@ -107,7 +107,7 @@ target_link_libraries(PrecompiledTests PRIVATE $<TARGET_NAME_IF_EXISTS:PendularD
 target_compile_options(PrecompiledTests PRIVATE ${testOptimisation})
 add_warnings(PrecompiledTests)
 precompile_headers(PrecompiledTests PrecompiledTests ${precompiledHeaders} <gtest/gtest.h>
-                   "Kernel/Simulation/Simulation.h" "${PROJECT_BINARY_DIR}/Generated/SelfTests/SpeciesOfTests.h")
+                   "Kernel/Scene/Simulation.h" "${PROJECT_BINARY_DIR}/Generated/SelfTests/SpeciesOfTests.h")
 foreach(folder IN LISTS testFolders)
     pendular_add_self_test(${folder} "${selfTests}/${folder}/*.cpp")
 endforeach()
@@ -176,8 +176,8 @@ endforeach()
 
 # A header compiles alone (its .cpp does not show it: a precompiled header comes before). Those that drivers include are
 # compiled here, each by itself, which takes some seconds: those of folders behind the label long.
-file(GLOB headers CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/Kernel/*.h" "${PROJECT_SOURCE_DIR}/Kernel/Base/*.h"
-     "${PROJECT_SOURCE_DIR}/Kernel/Files/*.h" "${PROJECT_SOURCE_DIR}/Kernel/Walls/*.h")
+file(GLOB headers CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/Kernel/*.h" "${PROJECT_SOURCE_DIR}/Kernel/Foundation/Base/*.h"
+     "${PROJECT_SOURCE_DIR}/Kernel/Foundation/Files/*.h" "${PROJECT_SOURCE_DIR}/Kernel/Core/Walls/*.h")
 foreach(header IN LISTS headers)
     cmake_path(REPLACE_EXTENSION header .cpp OUTPUT_VARIABLE source)
     if(EXISTS "${PROJECT_SOURCE_DIR}/${source}")
@@ -226,7 +226,7 @@ add_test(NAME OutOfTree
                  -D "configuration=$<CONFIG>" -P "${PROJECT_SOURCE_DIR}/Tools/CMake/CheckOutOfTree.cmake")
 set_tests_properties(OutOfTree PROPERTIES LABELS "fast;build")
 
-# The kernel of grain with grain keeps its packs in registers (Kernel/Math/Pack.h): the block function of the most used
+# The kernel of grain with grain keeps its packs in registers (Kernel/Foundation/Math/Pack.h): the block function of the most used
 # species, with its three geometries, has at most this many stores of 64 bytes to the stack before its first return.
 # g++ 12 makes 6 and 9; a const pack adds 3 or 4. Skipped where the registers are narrower.
 find_program(PYTHON3 python3)

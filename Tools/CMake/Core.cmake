@@ -1,4 +1,4 @@
-# The core: what a driver needs that includes no more than Kernel/MercuryNames.h and Drivers/Shared/CommandLine.h, two
+# The core (more than the folder Kernel/Core): what a driver needs that includes no more than Kernel/MercuryNames.h and Drivers/Shared/CommandLine.h, two
 # thirds of the kernel's files. Who builds such a driver compiles no other file. There is no list of it. A file is needed if its
 # header is (that of the same name; for a file without one, the first that it includes), and so is all that it includes,
 # but for what notInCore names. That the core needs nothing else, the test CoreAlone shows: it links as a whole by itself.
@@ -9,7 +9,7 @@ set(coreRoots Kernel/MercuryNames.h Drivers/Shared/CommandLine.h)
 # superquadrics and files of other programs, which scenes add by headers of their own; and laws of bridges by tables or
 # fits, with the solver of their equations, which only a driver that names such a law calls.
 set(notInCore "SpeciesRegistry|SeveralSpecies|/TriangleWall|/TriangleReader|/MeshParts\\.cpp|/SuperquadricHandler"
-    "/BlockGeometry\\.cpp|/PolyDataReader|/Capillary/.*\\.cpp|YoungLaplace\\.cpp|/FittedBridge\\.cpp|/ExactBridge\\.cpp"
+    "/BlockGeometry\\.cpp|/PolyDataReader|/YoungLaplace/.*\\.cpp|YoungLaplace\\.cpp|/FittedBridge\\.cpp|/ExactBridge\\.cpp"
     "/BridgeSurface\\.cpp")
 list(JOIN notInCore "|" notInCore)
 # Headers of the core that also declare, or call, what the core has not.

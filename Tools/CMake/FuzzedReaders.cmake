@@ -4,8 +4,8 @@
 
 set(coverage -fsanitize-coverage=inline-8bit-counters,indirect-calls,trace-cmp,pc-table)
 set(readerSources ${kernelSources})
-list(FILTER readerSources INCLUDE REGEX "/Kernel/((Boundaries|Files|Insertion|Output|Particles|Shapes|Simulation|Species|State|Walls)/|CoarseGraining/FieldImage)")
-list(FILTER readerSources EXCLUDE REGEX "/BridgeChoice|/Adhesion/")
+list(FILTER readerSources INCLUDE REGEX "/Kernel/(Foundation/(Files|State)/|Laws/|Core/(Particles|Walls|Run)/|Features/|Scene/|Analysis/Output/|Analysis/CoarseGraining/FieldImage)")
+list(FILTER readerSources EXCLUDE REGEX "/BridgeChoice|/Adhesion/|/LiquidBridges/")
 list(REMOVE_ITEM coreSources ${readerSources})
 list(REMOVE_ITEM otherSources ${readerSources})
 add_kernel_library(PendularReaders OBJECT ${readerSources})

@@ -1,21 +1,23 @@
 # Writes a header that lists all laws and names all species composed of them. A law is a header in the folder of
-# its kind below Kernel/Species/ (not in a sub-folder), named after the struct it defines, or a line
+# its kind (Kernel/Laws/KIND or Kernel/Features/NAME/KIND), named after the struct it defines, or a line
 # "using Name = ..." of the header CombinedLaws.h in that folder: no list has to be edited.
 
 # In `headers`: those of the laws of one kind; in `names`: its laws, the one that is no law ("NoFriction") first.
 function(pendular_find_laws kind headers names)
-    set(folder "${PROJECT_SOURCE_DIR}/Kernel/Species/${kind}")
-    file(GLOB found CONFIGURE_DEPENDS RELATIVE "${folder}" "${folder}/*.h")
+    file(GLOB found CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/Kernel/Laws/${kind}/*.h" "${PROJECT_SOURCE_DIR}/Kernel/Features/*/${kind}/*.h")
     list(SORT found)
     set(${headers} "${found}" PARENT_SCOPE)
     set(combined "")
-    if("CombinedLaws.h" IN_LIST found)
-        list(REMOVE_ITEM found "CombinedLaws.h")
-        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${folder}/CombinedLaws.h")
-        file(STRINGS "${folder}/CombinedLaws.h" combined REGEX "^using [A-Za-z]+ = ")
-        list(TRANSFORM combined REPLACE "^using ([A-Za-z]+) = .*$" "\\1")
-    endif()
-    list(TRANSFORM found REPLACE "\\.h$" "")
+    set(combining ${found})
+    list(FILTER combining INCLUDE REGEX "/CombinedLaws\\.h$")
+    list(FILTER found EXCLUDE REGEX "/CombinedLaws\\.h$")
+    foreach(file IN LISTS combining)
+        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${file}")
+        file(STRINGS "${PROJECT_SOURCE_DIR}/${file}" named REGEX "^using [A-Za-z]+ = ")
+        list(TRANSFORM named REPLACE "^using ([A-Za-z]+) = .*$" "\\1")
+        list(APPEND combined ${named})
+    endforeach()
+    list(TRANSFORM found REPLACE "^.*/([^/]*)\\.h$" "\\1")
     list(APPEND found ${combined})
     list(SORT found)
     if("No${kind}" IN_LIST found)
@@ -48,7 +50,7 @@ function(pendular_generate_laws header)
     foreach(kind IN ITEMS Normal Friction Adhesion)
         pendular_find_laws(${kind} headers laws${kind})
         foreach(lawHeader IN LISTS headers)
-            string(APPEND includes "#include \"Kernel/Species/${kind}/${lawHeader}\"\n")
+            string(APPEND includes "#include \"${lawHeader}\"\n")
         endforeach()
         list(JOIN laws${kind} ", " joined)
         string(APPEND lists "using ${kind}Laws = TypeList<${joined}>;\n")
@@ -70,10 +72,10 @@ function(pendular_generate_laws header)
     file(CONFIGURE OUTPUT "${header}" @ONLY CONTENT [[
 #pragma once
 
-// Written by CMake from the headers in Kernel/Species/Normal, Friction and Adhesion.
+// Written by CMake from the headers in the folders Normal, Friction and Adhesion of Kernel/Laws and Kernel/Features.
 
-@includes@#include "Kernel/Species/Species.h"
-#include "Kernel/Species/TypeList.h"
+@includes@#include "Kernel/Laws/Species/Species.h"
+#include "Kernel/Laws/Concepts/TypeList.h"
 
 namespace pendular {
 
@@ -163,8 +165,8 @@ function(pendular_instantiate_species folder type species speciesInFile sources)
 
 // Written by CMake from the list in Tools/CMake/GenerateLaws.cmake.
 
-#include "Kernel/Contacts/SpeciesLaws.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Core/Contacts/SpeciesLaws.h"
+#include "Kernel/Features/Laws.h"
 
 namespace pendular {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "Kernel/Insertion/MeshRegion.h"
+#include "Kernel/Features/Insertion/MeshRegion.h"
 
 namespace pendular::clump {
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "Kernel/Superquadrics/SuperquadricHandler.h"
+#include "Kernel/Features/Superquadrics/SuperquadricHandler.h"
 #include "Tools/Python/Bindings.h"
 #include "Tools/Python/Regions.h"
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "Kernel/Parts/BondPart.h"
+#include "Kernel/Features/Bonds/BondPart.h"
 #include "Tools/Python/Bindings.h"
 
 namespace pendular::python {

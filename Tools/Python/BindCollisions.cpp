@@ -4,9 +4,9 @@
 #include <array>
 #include <map>
 
-#include "Kernel/Base/Parallel.h"
-#include "Kernel/Contacts/SeveralSpeciesLaws.h"
-#include "Kernel/Simulation/Collisions.h"
+#include "Kernel/Features/SpeciesByName/SeveralSpeciesLaws.h"
+#include "Kernel/Foundation/Base/Parallel.h"
+#include "Kernel/Scene/Collisions.h"
 #include "Tools/Python/Bindings.h"
 #include "Tools/Python/SpeciesValues.h"
 

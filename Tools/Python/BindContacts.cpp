@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Output/SceneFields.h"
-#include "Kernel/Species/LawNames.h"
+#include "Kernel/Analysis/Output/SceneFields.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Laws/Species/LawNames.h"
 #include "Tools/Python/Bindings.h"
 
 namespace pendular::python {

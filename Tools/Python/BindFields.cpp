@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
-#include "Kernel/Base/Host.h"
-#include "Kernel/CoarseGraining/Clusters.h"
-#include "Kernel/CoarseGraining/FieldFiles.h"
-#include "Kernel/CoarseGraining/FieldOutput.h"
-#include "Kernel/CoarseGraining/MeanStress.h"
-#include "Kernel/CoarseGraining/SceneState.h"
-#include "Kernel/Species/LawNames.h"
+#include "Kernel/Analysis/CoarseGraining/FieldFiles.h"
+#include "Kernel/Analysis/CoarseGraining/FieldOutput.h"
+#include "Kernel/Analysis/CoarseGraining/SceneState.h"
+#include "Kernel/Analysis/Observables/Clusters.h"
+#include "Kernel/Analysis/Observables/MeanStress.h"
+#include "Kernel/Foundation/Base/Host.h"
+#include "Kernel/Laws/Species/LawNames.h"
 #include "Tools/Python/Bindings.h"
 
 namespace pendular::python {

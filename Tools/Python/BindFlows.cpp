@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "Kernel/Sizes/SizeDistribution.h"
+#include "Kernel/Features/SizeDistributions/SizeDistribution.h"
 #include "Tools/Python/Bindings.h"
 #include "Tools/Python/Insertable.h"
 #include "Tools/Python/WallHandle.h"

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "Kernel/Fluid/ColumnFlow.h"
-#include "Kernel/Fluid/FluidPart.h"
-#include "Kernel/Species/LawNames.h"
+#include "Kernel/Features/Fluid/ColumnFlow.h"
+#include "Kernel/Features/Fluid/FluidPart.h"
+#include "Kernel/Laws/Species/LawNames.h"
 #include "Tools/Python/Bindings.h"
 #include "Tools/Python/PartSettings.h"
 

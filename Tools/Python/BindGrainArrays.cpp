@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include "Kernel/Contacts/GrainMasses.h"
-#include "Kernel/Output/SceneFields.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/LawNames.h"
+#include "Kernel/Analysis/Output/SceneFields.h"
+#include "Kernel/Core/Contacts/GrainMasses.h"
+#include "Kernel/Laws/Species/LawNames.h"
+#include "Kernel/Scene/StateHash.h"
 #include "Tools/Python/Bindings.h"
 
 namespace pendular::python {

@@ -2,8 +2,8 @@
 
 #include <set>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Particles/GrainFile.h"
+#include "Kernel/Features/GrainFiles/GrainFile.h"
+#include "Kernel/Foundation/Base/InputError.h"
 #include "Tools/Python/Bindings.h"
 
 namespace pendular::python {

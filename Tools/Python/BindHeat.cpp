@@ -1,5 +1,5 @@
-#include "Kernel/Parts/HeatPart.h"
-#include "Kernel/Species/LawNames.h"
+#include "Kernel/Features/Heat/HeatPart.h"
+#include "Kernel/Laws/Species/LawNames.h"
 #include "Tools/Python/Bindings.h"
 #include "Tools/Python/WallHandle.h"
 

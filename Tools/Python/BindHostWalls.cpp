@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "Kernel/Walls/HostWall.h"
-#include "Kernel/Walls/TriangleReader.h"
+#include "Kernel/Features/Membranes/HostWall.h"
+#include "Kernel/Features/Meshes/TriangleReader.h"
 #include "Tools/Python/Bindings.h"
 #include "Tools/Python/WallHandle.h"
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "Kernel/Boundaries/Spray.h"
-#include "Kernel/Contacts/Evaporation.h"
+#include "Kernel/Features/LiquidTransport/Evaporation.h"
+#include "Kernel/Features/LiquidTransport/Spray.h"
 #include "Tools/Python/Bindings.h"
 
 namespace pendular::python {

@@ -4,9 +4,9 @@
 #include <array>
 #include <map>
 
-#include "Kernel/Species/LawNames.h"
-#include "Kernel/Walls/Membrane.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Features/Membranes/Membrane.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
+#include "Kernel/Laws/Species/LawNames.h"
 #include "Tools/Python/Bindings.h"
 #include "Tools/Python/WallHandle.h"
 

@@ -3,13 +3,13 @@
 #include <map>
 #include <utility>
 
-#include "Kernel/Output/EnergyFile.h"
-#include "Kernel/Output/GrainFlowFiles.h"
-#include "Kernel/Output/Hdf5Output.h"
-#include "Kernel/Output/MercuryOutput.h"
-#include "Kernel/Output/ParaViewOutput.h"
-#include "Kernel/Output/WallForceFile.h"
-#include "Kernel/Simulation/RunSummary.h"
+#include "Kernel/Analysis/Output/EnergyFile.h"
+#include "Kernel/Analysis/Output/GrainFlowFiles.h"
+#include "Kernel/Analysis/Output/Hdf5Output.h"
+#include "Kernel/Analysis/Output/ParaViewOutput.h"
+#include "Kernel/Analysis/Output/RunSummary.h"
+#include "Kernel/Analysis/Output/WallForceFile.h"
+#include "Kernel/Mercury/MercuryOutput.h"
 #include "Tools/Python/Bindings.h"
 
 namespace pendular::python {

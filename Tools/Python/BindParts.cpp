@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "Kernel/State/StateArchive.h"
-#include "Kernel/Step/SummaryRows.h"
+#include "Kernel/Core/Step/SummaryRows.h"
+#include "Kernel/Foundation/State/StateArchive.h"
 #include "Tools/Python/Bindings.h"
 #include "Tools/Python/PartSettings.h"
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "Kernel/Simulation/Scene.h"
-#include "Kernel/Sizes/SizeDistribution.h"
+#include "Kernel/Features/SizeDistributions/SizeDistribution.h"
+#include "Kernel/Scene/Scene.h"
 #include "Tools/Python/Bindings.h"
 #include "Tools/Python/Insertable.h"
 #include "Tools/Python/Regions.h"

@@ -1,7 +1,7 @@
 #include <memory>
 
-#include "Kernel/Output/Hdf5Series.h"
-#include "Kernel/State/Hdf5File.h"
+#include "Kernel/Analysis/Output/Hdf5Series.h"
+#include "Kernel/Foundation/State/Hdf5File.h"
 #include "Tools/Python/Bindings.h"
 
 namespace pendular::python {

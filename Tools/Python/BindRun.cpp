@@ -1,11 +1,11 @@
 #include <algorithm>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Parts/AdaptiveStep.h"
-#include "Kernel/Simulation/ChosenTimeStep.h"
-#include "Kernel/Simulation/OverlapEstimate.h"
-#include "Kernel/Simulation/SoftestModulus.h"
-#include "Kernel/Species/LawNames.h"
+#include "Kernel/Features/AdaptiveTimeStep/AdaptiveStep.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Laws/Species/LawNames.h"
+#include "Kernel/Scene/TimeStep/ChosenTimeStep.h"
+#include "Kernel/Scene/TimeStep/OverlapEstimate.h"
+#include "Kernel/Scene/TimeStep/SoftestModulus.h"
 #include "Tools/Python/Bindings.h"
 
 namespace pendular::python {

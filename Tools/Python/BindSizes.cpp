@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include "Kernel/Sizes/SizeLaws.h"
-#include "Kernel/Sizes/SizeSample.h"
-#include "Kernel/Sizes/SizeTable.h"
-#include "Kernel/Species/LawNames.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
+#include "Kernel/Features/SizeDistributions/SizeSample.h"
+#include "Kernel/Features/SizeDistributions/SizeTable.h"
+#include "Kernel/Laws/Species/LawNames.h"
 #include "Tools/Python/Bindings.h"
 #include "Tools/Python/Insertable.h"
 

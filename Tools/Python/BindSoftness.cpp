@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "Kernel/Simulation/SoftestModulus.h"
-#include "Kernel/Species/LawNames.h"
+#include "Kernel/Laws/Species/LawNames.h"
+#include "Kernel/Scene/TimeStep/SoftestModulus.h"
 #include "Tools/Python/Bindings.h"
 
 namespace pendular::python {

@@ -2,8 +2,8 @@
 
 #include <set>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Contacts/SpeciesRegistry.h"
+#include "Kernel/Features/SpeciesByName/SpeciesRegistry.h"
+#include "Kernel/Foundation/Base/InputError.h"
 #include "Tools/Python/Bindings.h"
 #include "Tools/Python/SpeciesValues.h"
 

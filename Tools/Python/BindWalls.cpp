@@ -2,12 +2,12 @@
 
 #include <utility>
 
-#include "Kernel/Output/SceneFields.h"
-#include "Kernel/Walls/AxisymmetricWall.h"
-#include "Kernel/Walls/InfiniteCylinder.h"
-#include "Kernel/Walls/IntersectionOfHalfSpaces.h"
-#include "Kernel/Walls/TriangleReader.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Analysis/Output/SceneFields.h"
+#include "Kernel/Features/CurvedWalls/AxisymmetricWall.h"
+#include "Kernel/Features/CurvedWalls/InfiniteCylinder.h"
+#include "Kernel/Features/Meshes/IntersectionOfHalfSpaces.h"
+#include "Kernel/Features/Meshes/TriangleReader.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
 #include "Tools/Python/Bindings.h"
 #include "Tools/Python/WallHandle.h"
 

@@ -1,6 +1,6 @@
 #include "Tools/Python/Insertable.h"
 
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 
 namespace pendular::python {
 

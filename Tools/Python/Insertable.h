@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Kernel/Insertion/BodyMixture.h"
+#include "Kernel/Features/Insertion/BodyMixture.h"
 #include "Tools/Python/PythonScene.h"
 #include "Tools/Python/Regions.h"
 

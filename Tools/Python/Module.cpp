@@ -5,12 +5,12 @@
 #include <chrono>
 #include <regex>
 
-#include "Kernel/Base/Host.h"
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Contacts/SpeciesRegistry.h"
-#include "Kernel/Files/FileFault.h"
-#include "Kernel/Ranks/ProgramRanks.h"
-#include "Kernel/Simulation/Program.h"
+#include "Kernel/Core/Ranks/ProgramRanks.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Features/SpeciesByName/SpeciesRegistry.h"
+#include "Kernel/Foundation/Base/Host.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Foundation/Files/FileFault.h"
 #include "Python/Version.h"
 #include "Tools/Python/Bindings.h"
 #include "Tools/Python/ExplainArguments.h"

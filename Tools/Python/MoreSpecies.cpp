@@ -1,6 +1,6 @@
 #include "Tools/Python/MoreSpecies.h"
 
-#include "Kernel/Contacts/SpeciesRegistry.h"
+#include "Kernel/Features/SpeciesByName/SpeciesRegistry.h"
 #include "Python/PythonSpecies.h"
 
 namespace pendular::python {

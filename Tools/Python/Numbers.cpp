@@ -9,7 +9,7 @@
 #include <memory>
 #include <variant>
 
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 
 namespace pendular::python {
 

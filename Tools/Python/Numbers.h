@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "Kernel/Math/EigenConversion.h"
-#include "Kernel/Output/PolyData.h"
-#include "Kernel/Particles/SphericalParticle.h"
+#include "Kernel/Analysis/Output/PolyData.h"
+#include "Kernel/Core/Particles/SphericalParticle.h"
+#include "Kernel/Foundation/Math/EigenConversion.h"
 
 /// Numbers on their way from numpy to the kernel and back.
 

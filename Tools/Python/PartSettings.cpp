@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "Kernel/State/StateArchive.h"
+#include "Kernel/Foundation/State/StateArchive.h"
 
 namespace pendular::python {
 

@@ -9,10 +9,10 @@
 #include <limits>
 #include <set>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Ranks/ProgramRanks.h"
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/State/StateArchive.h"
+#include "Kernel/Core/Ranks/ProgramRanks.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Foundation/State/StateArchive.h"
+#include "Kernel/Scene/Simulation.h"
 
 namespace pendular::python {
 

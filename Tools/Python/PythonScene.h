@@ -12,10 +12,10 @@
 #include <thread>
 #include <vector>
 
-#include "Kernel/Contacts/ContactEvent.h"
-#include "Kernel/Output/SceneBox.h"
-#include "Kernel/Simulation/Scene.h"
-#include "Kernel/Species/AnySpecies.h"
+#include "Kernel/Analysis/Output/SceneBox.h"
+#include "Kernel/Core/Contacts/ContactEvent.h"
+#include "Kernel/Laws/Species/AnySpecies.h"
+#include "Kernel/Scene/Scene.h"
 #include "Tools/Python/Numbers.h"
 
 namespace pendular {

@@ -2,11 +2,11 @@
 
 #include <variant>
 
-#include "Kernel/Insertion/MeshRegion.h"
-#include "Kernel/Insertion/Region.h"
-#include "Kernel/Particles/ClumpTemplate.h"
-#include "Kernel/Superquadrics/BlockGrain.h"
-#include "Kernel/Superquadrics/SuperquadricGrain.h"
+#include "Kernel/Features/Insertion/MeshRegion.h"
+#include "Kernel/Features/Insertion/Region.h"
+#include "Kernel/Features/RigidBodies/ClumpTemplate.h"
+#include "Kernel/Features/Superquadrics/BlockGrain.h"
+#include "Kernel/Features/Superquadrics/SuperquadricGrain.h"
 #include "Tools/Python/PythonScene.h"
 
 namespace pendular::python {

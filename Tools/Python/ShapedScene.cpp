@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include "Kernel/Contacts/SpeciesRegistry.h"
-#include "Kernel/Simulation/SuperquadricSimulation.h"
-#include "Kernel/Species/LawNames.h"
-#include "Kernel/Species/SpeciesInScene.h"
+#include "Kernel/Features/SpeciesByName/SpeciesRegistry.h"
+#include "Kernel/Laws/Species/LawNames.h"
+#include "Kernel/Laws/Species/SpeciesInScene.h"
+#include "Kernel/Scene/SuperquadricSimulation.h"
 #include "Python/ShapedSpecies.h"
 #include "Tools/Python/PythonScene.h"
 

@@ -9,9 +9,9 @@
 #include <set>
 #include <utility>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Species/ElasticConstants.h"
-#include "Kernel/Species/LawNames.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Laws/Concepts/ElasticConstants.h"
+#include "Kernel/Laws/Species/LawNames.h"
 
 namespace pendular::python {
 

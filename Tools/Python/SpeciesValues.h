@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "Kernel/Species/AnySpecies.h"
+#include "Kernel/Laws/Species/AnySpecies.h"
 #include "Tools/Python/Numbers.h"
 
 /// Values of a species by the names that users give them.

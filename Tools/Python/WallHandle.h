@@ -1,7 +1,7 @@
 #pragma once
 
-#include "Kernel/Walls/TriangleReader.h"
-#include "Kernel/Walls/WallHandler.h"
+#include "Kernel/Core/Walls/WallHandler.h"
+#include "Kernel/Features/Meshes/TriangleReader.h"
 #include "Tools/Python/PythonScene.h"
 
 namespace pendular::python {

@@ -81,7 +81,7 @@ def main():
     wanted = sorted({n for b in bindings for n in re.findall(r'comment\(\s*"([\w:]+)"', b.read_text())})
     known = {}
     for header in sorted(kernel.rglob("*.h")):
-        if header.name == "MercuryScene.h" or header.parent.name == "Mercury":
+        if header.name == "MercuryScene.h" or (header.parent.name == "Mercury" and header.name != "MercuryOutput.h"):
             continue
         for name, text in comments_of(header).items():
             known.setdefault(name, text)

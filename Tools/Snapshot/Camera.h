@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "Kernel/Math/Vector.h"
+#include "Kernel/Foundation/Math/Vector.h"
 
 namespace pendular::snapshot {
 

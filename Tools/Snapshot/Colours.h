@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "Kernel/Output/FieldName.h"
+#include "Kernel/Analysis/Output/FieldName.h"
 
 namespace pendular::snapshot {
 

@@ -5,12 +5,12 @@
 #include <set>
 #include <sstream>
 
-#include "Kernel/Files/FileFault.h"
-#include "Kernel/Files/TextFile.h"
-#include "Kernel/Output/ParaViewSeries.h"
-#include "Kernel/Output/PolyData.h"
-#include "Kernel/Particles/ParticleStore.h"
-#include "Kernel/State/RestartFile.h"
+#include "Kernel/Analysis/Output/ParaViewSeries.h"
+#include "Kernel/Analysis/Output/PolyData.h"
+#include "Kernel/Core/Particles/ParticleStore.h"
+#include "Kernel/Foundation/Files/FileFault.h"
+#include "Kernel/Foundation/Files/TextFile.h"
+#include "Kernel/Foundation/State/RestartFile.h"
 #include "Tools/Snapshot/Colours.h"
 
 namespace pendular::snapshot {

@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "Kernel/Walls/WallSurface.h"
+#include "Kernel/Core/Walls/WallSurface.h"
 #include "Tools/Snapshot/Camera.h"
 #include "Tools/Snapshot/Colours.h"
 #include "Tools/Snapshot/Legend.h"
 
 namespace pendular::snapshot {
 
-/// The shape of a grain that is no ball: a superquadric (Kernel/Shapes/Superquadric.h).
+/// The shape of a grain that is no ball: a superquadric (Kernel/Features/Superquadrics/Superquadric.h).
 struct Solid {
     std::array<Vector<double>, 3> axes;  // m, the half axes in space
     double n1, n2;                       // exponents

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Files/FileFault.h"
-#include "Kernel/Files/WrittenBeside.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Files/FileFault.h"
+#include "Kernel/Foundation/Files/WrittenBeside.h"
 #include "Tools/Snapshot/PovScene.h"
 
 namespace pendular::snapshot {

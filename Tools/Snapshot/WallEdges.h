@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "Kernel/Walls/WallSurface.h"
+#include "Kernel/Core/Walls/WallSurface.h"
 
 namespace pendular::snapshot {
 

@@ -7,9 +7,9 @@
 #include <typeindex>
 #include <vector>
 
-#include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Species/Adhesion/Shared/ExactBridge.h"
-#include "Kernel/Species/BridgeLaws.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
+#include "Kernel/Features/LiquidBridges/Shared/ExactBridge.h"
+#include "Kernel/Scene/BridgeLaws.h"
 #include "Tools/Timing/Timing.h"
 
 // What the liquid bridge laws cost: force in the form of the contact kernel, eight bridges at a time from

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "Kernel/Species/Field.h"
+#include "Kernel/Laws/Concepts/Field.h"
 
 // Times of short actions.
 

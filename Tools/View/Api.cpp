@@ -8,9 +8,9 @@
 #include <sstream>
 #include <utility>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Files/FileContent.h"
-#include "Kernel/Files/TextFile.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Files/FileContent.h"
+#include "Kernel/Foundation/Files/TextFile.h"
 #include "Tools/View/FieldMaps.h"
 #include "Tools/View/FramePack.h"
 #include "Tools/View/NameText.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "Kernel/Output/FieldName.h"
+#include "Kernel/Analysis/Output/FieldName.h"
 
 namespace pendular::view {
 

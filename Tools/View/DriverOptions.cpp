@@ -8,9 +8,9 @@
 #include <limits>
 #include <sstream>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Files/TextFile.h"
-#include "Kernel/Species/Field.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Files/TextFile.h"
+#include "Kernel/Laws/Concepts/Field.h"
 #include "Tools/View/Process.h"
 #include "Tools/View/ReadJson.h"
 

@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/CoarseGraining/FieldImage.h"
-#include "Kernel/Files/TextFile.h"
+#include "Kernel/Analysis/CoarseGraining/FieldImage.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Files/TextFile.h"
 #include "Tools/View/Columns.h"
 #include "Tools/View/FrameLists.h"
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "Kernel/Output/Hdf5Series.h"
-#include "Kernel/Output/ParaViewSeries.h"
+#include "Kernel/Analysis/Output/Hdf5Series.h"
+#include "Kernel/Analysis/Output/ParaViewSeries.h"
 #include "Tools/View/OpenFolder.h"
 
 namespace pendular::view {

@@ -9,11 +9,11 @@
 #include <unordered_map>
 #include <utility>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Output/FrameParts.h"
-#include "Kernel/Output/Hdf5Frame.h"
-#include "Kernel/Output/JoinPieces.h"
-#include "Kernel/Output/ShapeFields.h"
+#include "Kernel/Analysis/Output/FrameParts.h"
+#include "Kernel/Analysis/Output/Hdf5Frame.h"
+#include "Kernel/Analysis/Output/JoinPieces.h"
+#include "Kernel/Analysis/Output/ShapeFields.h"
+#include "Kernel/Foundation/Base/InputError.h"
 #include "Tools/Snapshot/Compose.h"
 #include "Tools/View/Columns.h"
 #include "Tools/View/FrameLists.h"

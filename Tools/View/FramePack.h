@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "Kernel/Math/Vector.h"
+#include "Kernel/Foundation/Math/Vector.h"
 #include "Tools/View/RunFolder.h"
 
 namespace pendular::view {

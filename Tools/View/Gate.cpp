@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 
 namespace pendular::view {
 

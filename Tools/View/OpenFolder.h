@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 
 namespace pendular::view {
 

@@ -12,7 +12,7 @@
 #include <csignal>
 #include <cstring>
 
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 
 extern char** environ;
 

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "Kernel/Base/FullStop.h"
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Files/FileFault.h"
-#include "Kernel/Files/ReadingProcess.h"
+#include "Kernel/Foundation/Base/FullStop.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Files/FileFault.h"
+#include "Kernel/Foundation/Files/ReadingProcess.h"
 #include "Tools/View/RunState.h"
 
 namespace pendular::view {

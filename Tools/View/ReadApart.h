@@ -9,9 +9,10 @@
 
 namespace pendular::view {
 
-// What is in the files of runs is read in child processes (Kernel/Files/ReadingProcess.h), which take no lock
-// that another thread of the server may hold: not of the queue, of frames, or of sizes of folders. A file
-// that ends the child, or needs too much memory, costs one answer; the memory of the server stays as it was.
+// What is in the files of runs is read in child processes (Kernel/Foundation/Files/ReadingProcess.h), which
+// take no lock that another thread of the server may hold: not of the queue, of frames, or of sizes of
+// folders. A file that ends the child, or needs too much memory, costs one answer; the memory of the server
+// stays as it was.
 
 /// The answer, or the sentence of what was thrown, but for want of memory.
 Reply replyOf(const std::function<Reply()>& compute);

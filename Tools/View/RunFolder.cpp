@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 #include "Tools/View/NameText.h"
 
 namespace pendular::view {

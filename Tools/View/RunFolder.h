@@ -62,7 +62,8 @@ bool isOfFields(const OpenFolder& folder, const std::string& series);
 class Locks {
 public:
     Locks();
-    /// The process that has a lock (Kernel/Files/FileLock.h), seen without touching the lock; 0: none.
+    /// The process that has a lock (Kernel/Foundation/Files/FileLock.h), seen without touching the lock; 0:
+    /// none.
     [[nodiscard]] pid_t holderOf(const OpenFolder& folder, const std::string& file) const;
 
 private:

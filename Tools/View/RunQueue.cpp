@@ -10,10 +10,10 @@
 #include <cstring>
 #include <utility>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Files/FileFault.h"
-#include "Kernel/Files/TextFile.h"
-#include "Kernel/Simulation/SummaryFile.h"
+#include "Kernel/Core/Run/SummaryFile.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Files/FileFault.h"
+#include "Kernel/Foundation/Files/TextFile.h"
 #include "Tools/View/NameText.h"
 #include "Tools/View/Process.h"
 #include "Tools/View/RunState.h"

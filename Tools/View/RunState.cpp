@@ -14,10 +14,10 @@
 #include <utility>
 #include <vector>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Files/TextFile.h"
-#include "Kernel/Simulation/RunStatus.h"
-#include "Kernel/Simulation/SummaryFile.h"
+#include "Kernel/Core/Run/RunStatus.h"
+#include "Kernel/Core/Run/SummaryFile.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Files/TextFile.h"
 #include "Tools/View/FieldMaps.h"
 #include "Tools/View/FramePack.h"
 #include "Tools/View/NameText.h"

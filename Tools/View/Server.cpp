@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 
 namespace pendular::view {
 

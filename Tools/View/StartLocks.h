@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "Kernel/Files/FileLock.h"
+#include "Kernel/Foundation/Files/FileLock.h"
 #include "Tools/View/RunFolder.h"
 
 namespace pendular::view {

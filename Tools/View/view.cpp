@@ -15,9 +15,9 @@
 
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/Species/Field.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Laws/Concepts/Field.h"
 #include "Tools/View/Api.h"
 #include "Tools/View/Server.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "Kernel/Step/Conflicts.h"
+#include "Kernel/Core/Step/Conflicts.h"
 #include "SelfTests/Fuzz/RandomScenes/Draws.h"
 #include "SelfTests/Fuzz/RandomScenes/Feature.h"
 #include "SelfTests/Fuzz/RandomScenes/Making.h"

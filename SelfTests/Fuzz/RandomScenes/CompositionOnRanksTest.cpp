@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "Kernel/Base/RunError.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "SelfTests/Fuzz/RandomScenes/Composition.h"
 #include "SelfTests/Fuzz/RandomScenes/RandomScene.h"
 #include "SelfTests/Ranks/SharedScene.h"

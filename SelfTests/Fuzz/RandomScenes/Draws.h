@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "Kernel/Particles/SphericalParticle.h"
+#include "Kernel/Core/Particles/SphericalParticle.h"
 #include "SelfTests/Fuzz/RandomScenes/Recipe.h"
 #include "SelfTests/Support/Random.h"
 

@@ -1,5 +1,5 @@
 // Walls that forces move.
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
 #include "SelfTests/Fuzz/RandomScenes/Making.h"
 
 namespace pendular::fuzz {

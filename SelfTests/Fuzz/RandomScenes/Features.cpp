@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 #include "SelfTests/Fuzz/RandomScenes/Feature.h"
 #include "SelfTests/Fuzz/RandomScenes/Recipe.h"
 

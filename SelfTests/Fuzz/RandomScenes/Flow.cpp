@@ -1,7 +1,7 @@
 // Grains that come and go: inlets, insert(), outlets, planes that count.
 #include <algorithm>
 
-#include "Kernel/Sizes/SizeLaws.h"
+#include "Kernel/Features/SizeDistributions/SizeLaws.h"
 #include "SelfTests/Fuzz/RandomScenes/Making.h"
 
 namespace pendular::fuzz {

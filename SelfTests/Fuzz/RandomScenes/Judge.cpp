@@ -15,7 +15,7 @@
 #include <set>
 #include <sstream>
 
-#include "Kernel/Base/RunError.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "SelfTests/Fuzz/RandomScenes/RandomScene.h"
 #include "SelfTests/Fuzz/RandomScenes/Watch.h"
 #include "SelfTests/Restart/StateContent.h"

@@ -4,8 +4,8 @@
 #include <csignal>
 #include <thread>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Base/RunError.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "SelfTests/Fuzz/RandomScenes/Judge.h"
 #include "SelfTests/Fuzz/RandomScenes/Making.h"
 #include "SelfTests/Support/Refusal.h"

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Superquadrics/SuperquadricHandler.h"
+#include "Kernel/Features/Superquadrics/SuperquadricHandler.h"
+#include "Kernel/Scene/Simulation.h"
 #include "SelfTests/Fuzz/RandomScenes/Draws.h"
 #include "SelfTests/Fuzz/RandomScenes/Feature.h"
 

@@ -1,7 +1,7 @@
 // Species: one feature for each type that is compiled into the kernel, and for other laws of dry adhesion.
 #include <numbers>
 
-#include "Kernel/Contacts/SpeciesRegistry.h"
+#include "Kernel/Features/SpeciesByName/SpeciesRegistry.h"
 #include "SelfTests/Fuzz/RandomScenes/Making.h"
 
 namespace pendular::fuzz {

@@ -1,9 +1,9 @@
 // Walls of triangles, what grains wear off them, and membranes.
 #include <numbers>
 
-#include "Kernel/Walls/IntersectionOfHalfSpaces.h"
-#include "Kernel/Walls/Membrane.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Features/Membranes/Membrane.h"
+#include "Kernel/Features/Meshes/IntersectionOfHalfSpaces.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
 #include "SelfTests/Fuzz/RandomScenes/Making.h"
 
 namespace pendular::fuzz {

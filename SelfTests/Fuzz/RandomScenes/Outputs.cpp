@@ -1,12 +1,12 @@
 // Files that a run writes.
-#include "Kernel/CoarseGraining/FieldOutput.h"
-#include "Kernel/Output/EnergyFile.h"
-#include "Kernel/Output/GrainFlowFiles.h"
-#include "Kernel/Output/Hdf5Output.h"
-#include "Kernel/Output/MercuryOutput.h"
-#include "Kernel/Output/ParaViewOutput.h"
-#include "Kernel/Output/WallForceFile.h"
-#include "Kernel/Simulation/RunSummary.h"
+#include "Kernel/Analysis/CoarseGraining/FieldOutput.h"
+#include "Kernel/Analysis/Output/EnergyFile.h"
+#include "Kernel/Analysis/Output/GrainFlowFiles.h"
+#include "Kernel/Analysis/Output/Hdf5Output.h"
+#include "Kernel/Analysis/Output/ParaViewOutput.h"
+#include "Kernel/Analysis/Output/RunSummary.h"
+#include "Kernel/Analysis/Output/WallForceFile.h"
+#include "Kernel/Mercury/MercuryOutput.h"
 #include "SelfTests/Fuzz/RandomScenes/Making.h"
 
 namespace pendular::fuzz {

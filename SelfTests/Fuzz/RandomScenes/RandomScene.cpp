@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <deque>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Simulation/SuperquadricSimulation.h"
-#include "Kernel/Species/SpeciesInScene.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Laws/Species/SpeciesInScene.h"
+#include "Kernel/Scene/SuperquadricSimulation.h"
 
 namespace pendular::fuzz {
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 #include "SelfTests/Fuzz/RandomScenes/Composition.h"
 #include "SelfTests/Fuzz/RandomScenes/Feature.h"
 #include "SelfTests/Fuzz/RandomScenes/Judge.h"

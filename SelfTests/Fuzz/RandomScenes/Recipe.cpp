@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 #include "SelfTests/Fuzz/RandomScenes/Draws.h"
 #include "SelfTests/Fuzz/RandomScenes/Feature.h"
 

@@ -1,8 +1,8 @@
 // Planes, cylinders, axisymmetric walls, at rest and moving.
 #include <numbers>
 
-#include "Kernel/Walls/AxisymmetricWall.h"
-#include "Kernel/Walls/InfiniteCylinder.h"
+#include "Kernel/Features/CurvedWalls/AxisymmetricWall.h"
+#include "Kernel/Features/CurvedWalls/InfiniteCylinder.h"
 #include "SelfTests/Fuzz/RandomScenes/Making.h"
 
 namespace pendular::fuzz {

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "Kernel/Contacts/SpeciesRegistry.h"
-#include "Kernel/Species/Friction/Mindlin.h"
+#include "Kernel/Features/SpeciesByName/SpeciesRegistry.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
 
 namespace {
 

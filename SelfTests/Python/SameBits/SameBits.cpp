@@ -10,9 +10,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Scene/Simulation.h"
+#include "Kernel/Scene/StateHash.h"
 #include "Tools/Python/MoreSpecies.h"
 
 using namespace pendular;

@@ -6,13 +6,13 @@
 #include <cstdlib>
 #include <string>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Files/OwnFile.h"
-#include "Kernel/Output/ParaViewOutput.h"
-#include "Kernel/Output/RunTable.h"
-#include "Kernel/Ranks/ProgramRanks.h"
-#include "Kernel/Simulation/Program.h"
+#include "Kernel/Analysis/Output/ParaViewOutput.h"
+#include "Kernel/Analysis/Output/RunTable.h"
+#include "Kernel/Core/Ranks/ProgramRanks.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Foundation/Files/OwnFile.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 
 using namespace pendular;

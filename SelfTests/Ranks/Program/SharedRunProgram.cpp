@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Simulation/Program.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Foundation/Base/InputError.h"
 #include "SelfTests/Ranks/SharedRuns.h"
 
 using namespace pendular;

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "BuildFolders.h"
-#include "Kernel/Capillary/CapillaryBridge.h"
-#include "Kernel/Species/BridgeChoice.h"
-#include "Kernel/Species/BridgeLaws.h"
+#include "Kernel/Features/LiquidBridges/YoungLaplace/CapillaryBridge.h"
+#include "Kernel/Scene/BridgeChoice.h"
+#include "Kernel/Scene/BridgeLaws.h"
 #include "SelfTests/Support/Draw.h"
 #include "SelfTests/Support/Refusal.h"
 

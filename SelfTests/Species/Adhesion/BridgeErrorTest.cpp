@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Capillary/CapillaryBridge.h"
-#include "Kernel/Species/Adhesion/Shared/BridgeError.h"
-#include "Kernel/Species/BridgeLaws.h"
+#include "Kernel/Features/LiquidBridges/Shared/BridgeError.h"
+#include "Kernel/Features/LiquidBridges/YoungLaplace/CapillaryBridge.h"
+#include "Kernel/Scene/BridgeLaws.h"
 
 // What judges the bridge laws, against laws whose error is known: the exact force times a number, with a
 // rupture distance times another.

@@ -2,8 +2,8 @@
 
 #include <numbers>
 
-#include "Kernel/Species/Adhesion/Shared/ToroidalBridge.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Features/LiquidBridges/Shared/ToroidalBridge.h"
 
 // What the tests of the published bridge models share. Lengths are in R, forces in R gamma.
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Kernel/Capillary/CapillaryBridge.h"
+#include "Kernel/Features/LiquidBridges/YoungLaplace/CapillaryBridge.h"
 #include "SelfTests/Species/Adhesion/BridgeModels.h"
 #include "SelfTests/Support/Draw.h"
 #include "SelfTests/Support/Refusal.h"

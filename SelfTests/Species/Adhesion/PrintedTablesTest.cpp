@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "Kernel/Capillary/CapillaryBridge.h"
-#include "Kernel/Species/Adhesion/Shared/UnequalToroid.h"
+#include "Kernel/Features/LiquidBridges/Shared/UnequalToroid.h"
+#include "Kernel/Features/LiquidBridges/YoungLaplace/CapillaryBridge.h"
 #include "SelfTests/Species/Adhesion/BridgeModels.h"
 #include "SelfTests/Species/Adhesion/PrintedTables.h"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "Kernel/Capillary/CapillaryBridge.h"
+#include "Kernel/Features/LiquidBridges/YoungLaplace/CapillaryBridge.h"
 #include "SelfTests/Species/Adhesion/BridgeModels.h"
 #include "SelfTests/Support/Draw.h"
 #include "SelfTests/Support/EveryLaw.h"

@@ -3,13 +3,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Species/Adhesion/DMT.h"
-#include "Kernel/Species/Adhesion/IrreversibleAdhesive.h"
-#include "Kernel/Species/Adhesion/JKR.h"
-#include "Kernel/Species/Adhesion/ReversibleAdhesive.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
-#include "Kernel/Species/SpeciesHandler.h"
+#include "Kernel/Laws/Adhesion/DMT.h"
+#include "Kernel/Laws/Adhesion/IrreversibleAdhesive.h"
+#include "Kernel/Laws/Adhesion/JKR.h"
+#include "Kernel/Laws/Adhesion/ReversibleAdhesive.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Laws/Species/SpeciesHandler.h"
 #include "SelfTests/Support/Draw.h"
 #include "SelfTests/Support/Refusal.h"
 

@@ -2,12 +2,12 @@
 
 #include <numbers>
 
-#include "Kernel/Species/Adhesion/DMT.h"
-#include "Kernel/Species/Adhesion/IrreversibleAdhesive.h"
-#include "Kernel/Species/Adhesion/JKR.h"
-#include "Kernel/Species/Adhesion/ReversibleAdhesive.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/Shared/ContactTime.h"
+#include "Kernel/Laws/Adhesion/DMT.h"
+#include "Kernel/Laws/Adhesion/IrreversibleAdhesive.h"
+#include "Kernel/Laws/Adhesion/JKR.h"
+#include "Kernel/Laws/Adhesion/ReversibleAdhesive.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/Shared/ContactTime.h"
 #include "SelfTests/Scenes/Collision.h"
 
 // Whole collisions of grains that stick, against the energies that their laws store and lose.
@@ -89,8 +89,8 @@ TEST(StickyCollision, jkrCostsWhatThorntonAndNingGive) {
 }
 
 // Coarse steps: where the neck takes a quarter of the energy, the rebound errs by less than 1 % of the
-// approach at 25 steps for the time of Hertz's contact (Kernel/Motion/README.md), wherever in a step the neck
-// forms and snaps. Against the closed form, without a dashpot.
+// approach at 25 steps for the time of Hertz's contact (Kernel/Core/Motion/README.md), wherever in a step the
+// neck forms and snaps. Against the closed form, without a dashpot.
 TEST(StickyCollision, jkrErrsByLessThanOnePercentAt25StepsAContact) {
     const JKR law = jkr(0.2);
     for (const double radius2 : {radius, infinity}) {

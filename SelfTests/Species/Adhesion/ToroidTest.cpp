@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Species/Adhesion/Shared/UnequalToroid.h"
+#include "Kernel/Features/LiquidBridges/Shared/UnequalToroid.h"
 #include "SelfTests/Species/Adhesion/BridgeModels.h"
 #include "SelfTests/Support/Draw.h"
 

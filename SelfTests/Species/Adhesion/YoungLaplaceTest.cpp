@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Capillary/CapillaryBridge.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeYoungLaplace.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeYoungLaplace.h"
+#include "Kernel/Features/LiquidBridges/YoungLaplace/CapillaryBridge.h"
 #include "SelfTests/Support/Draw.h"
 #include "SelfTests/Support/Refusal.h"
 
@@ -157,7 +157,7 @@ TEST(YoungLaplace, tableAndSolverMeetAtTheEdge) {
         }
 }
 
-// The neighbour search looks as far as the extremes of the sizes reach (Kernel/Contacts/ContactList.h).
+// The neighbour search looks as far as the extremes of the sizes reach (Kernel/Core/Contacts/ContactList.h).
 TEST(YoungLaplace, reachesFarthestBetweenExtremesOfTheSizes) {
     support::Draw draw(2);
     for (int k = 0; k < 300; ++k) {

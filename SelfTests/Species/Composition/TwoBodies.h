@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Kernel/Species/Species.h"
+#include "Kernel/Laws/Species/Species.h"
 
 namespace pendular {
 

@@ -5,13 +5,13 @@
 
 #include <cmath>
 
-#include "Kernel/Species/Friction/CombinedLaws.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Friction/MindlinIncremental.h"
-#include "Kernel/Species/Friction/MindlinPartialSlip.h"
-#include "Kernel/Species/Friction/MindlinRollingTorsion.h"
-#include "Kernel/Species/Friction/MindlinSecant.h"
-#include "Kernel/Species/Friction/SlidingFriction.h"
+#include "Kernel/Laws/Friction/CombinedLaws.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Friction/MindlinIncremental.h"
+#include "Kernel/Laws/Friction/MindlinPartialSlip.h"
+#include "Kernel/Laws/Friction/MindlinRollingTorsion.h"
+#include "Kernel/Laws/Friction/MindlinSecant.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
 #include "SelfTests/Support/Draw.h"
 
 namespace pendular::reducedProfileTest {

@@ -3,13 +3,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Motion/StabilityLimit.h"
-#include "Kernel/Species/Friction/CombinedLaws.h"
-#include "Kernel/Species/Friction/Friction.h"
-#include "Kernel/Species/Friction/MindlinRollingTorsion.h"
-#include "Kernel/Species/Friction/SlidingRollingTorsion.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Core/Motion/StabilityLimit.h"
+#include "Kernel/Laws/Friction/CombinedLaws.h"
+#include "Kernel/Laws/Friction/Friction.h"
+#include "Kernel/Laws/Friction/MindlinRollingTorsion.h"
+#include "Kernel/Laws/Friction/SlidingRollingTorsion.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "Kernel/Species/Friction/MindlinSecant.h"
-#include "Kernel/Species/Friction/SlidingFriction.h"
+#include "Kernel/Laws/Friction/MindlinSecant.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
 
 namespace pendular::stickSlipTest {
 namespace {

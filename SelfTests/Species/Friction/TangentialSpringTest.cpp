@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Math/EigenConversion.h"
-#include "Kernel/Species/Friction/Shared/TangentialSpring.h"
+#include "Kernel/Foundation/Math/EigenConversion.h"
+#include "Kernel/Laws/Friction/Shared/TangentialSpring.h"
 #include "SelfTests/Support/Draw.h"
 
 namespace pendular::tangentialSpringTest {

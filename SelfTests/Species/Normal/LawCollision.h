@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "Kernel/Species/Law.h"
+#include "Kernel/Laws/Concepts/Law.h"
 
 namespace pendular {
 

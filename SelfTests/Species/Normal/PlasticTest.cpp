@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "Kernel/Species/Normal/HertzianPlasticViscoelastic.h"
-#include "Kernel/Species/Normal/LinearPlasticViscoelastic.h"
-#include "Kernel/Species/SpeciesHandler.h"
+#include "Kernel/Laws/Normal/HertzianPlasticViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearPlasticViscoelastic.h"
+#include "Kernel/Laws/Species/SpeciesHandler.h"
 #include "SelfTests/Scenes/Collision.h"
 #include "SelfTests/Species/Normal/LawCollision.h"
 #include "SelfTests/Support/Draw.h"

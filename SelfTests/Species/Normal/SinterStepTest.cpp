@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Laws.h"
 #include "SelfTests/Species/Normal/SinteringPair.h"
 
 // Contacts that sinter at the steps that scenes choose: what grows must not depend on the step.
@@ -281,7 +281,7 @@ struct AtRest : scenes::FewGrains<HertzianViscoelasticMindlinParhamiMcMeekingSin
 
 // What the dashpots of six contacts do to a motion is known one step late, and so is the spring beside them.
 // A mode that a step of stabilityLimit() does not bear grows by 1.06 to 1.14 a step, 1e10 in 400; one of the
-// bed's may grow tenfold (Kernel/Motion). Necks c of 0.05 to 500 h k.
+// bed's may grow tenfold (Kernel/Core/Motion). Necks c of 0.05 to 500 h k.
 TEST(SinterStep, springsBesideNecksAreStableAtTheLimit) {
     for (const std::size_t count : {2u, 3u, 8u, 13u})
         for (const double shear : {0.0, 0.02, 0.2})

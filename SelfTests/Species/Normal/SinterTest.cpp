@@ -5,8 +5,8 @@
 #include <memory>
 #include <numbers>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "SelfTests/Species/Normal/LawCollision.h"
 #include "SelfTests/Species/Normal/SinteringPair.h"
 #include "SelfTests/Support/Refusal.h"

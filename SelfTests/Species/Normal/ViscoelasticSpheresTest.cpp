@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "Kernel/Species/Normal/HertzianBSHPViscoelastic.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/TimeStepAdvice.h"
+#include "Kernel/Laws/Normal/HertzianBSHPViscoelastic.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Species/TimeStepAdvice.h"
 #include "SelfTests/Species/Normal/LawCollision.h"
 
 namespace pendular::viscoelasticSpheresTest {

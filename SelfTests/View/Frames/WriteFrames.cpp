@@ -22,12 +22,12 @@
 #include <string>
 #include <utility>
 
-#include "Kernel/CoarseGraining/FieldFiles.h"
-#include "Kernel/Files/CsvFile.h"
-#include "Kernel/Output/Hdf5Output.h"
-#include "Kernel/Output/ParaViewOutput.h"
-#include "Kernel/Output/PolyData.h"
-#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Analysis/CoarseGraining/FieldFiles.h"
+#include "Kernel/Analysis/Output/Hdf5Output.h"
+#include "Kernel/Analysis/Output/ParaViewOutput.h"
+#include "Kernel/Analysis/Output/PolyData.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
+#include "Kernel/Scene/Simulation.h"
 
 using namespace pendular;
 

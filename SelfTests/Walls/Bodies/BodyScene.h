@@ -4,13 +4,13 @@
 #include <numbers>
 #include <vector>
 
-#include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Friction/SlidingFriction.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
-#include "Kernel/Walls/AxisymmetricWall.h"
-#include "Kernel/Walls/InfiniteCylinder.h"
-#include "Kernel/Walls/TriangleWall.h"
-#include "Kernel/Walls/WallBody.h"
+#include "Kernel/Features/CurvedWalls/AxisymmetricWall.h"
+#include "Kernel/Features/CurvedWalls/InfiniteCylinder.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
+#include "Kernel/Features/MovingWalls/WallBody.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/StateHash.h"
 #include "SelfTests/Scenes/FewGrains.h"
 
 namespace pendular::bodyTests {

@@ -1,9 +1,9 @@
 // Walls that forces move, where no grain touches them, and what is refused.
 #include <gtest/gtest.h>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Step/StepPart.h"
-#include "Kernel/Step/SummaryRows.h"
+#include "Kernel/Core/Step/StepPart.h"
+#include "Kernel/Core/Step/SummaryRows.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Walls/Bodies/BodyScene.h"
 

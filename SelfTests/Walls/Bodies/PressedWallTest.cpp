@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Walls/Bodies/BodyScene.h"
 

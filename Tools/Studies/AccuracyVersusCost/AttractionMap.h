@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Kernel/Files/CsvFile.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
 #include "Tools/Studies/AccuracyVersusCost/DampedCollisions.h"
 
 // A map of when the normal force of a damped contact pulls, how strongly, and what it means for the

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "Kernel/Files/CsvFile.h"
-#include "Kernel/Species/Adhesion/Shared/BridgeError.h"
+#include "Kernel/Features/LiquidBridges/Shared/BridgeError.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
 #include "Tools/Studies/AccuracyVersusCost/BridgePopulations.h"
 #include "Tools/Studies/AccuracyVersusCost/ParetoFront.h"
 #include "Tools/Timing/BridgeTiming.h"

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "Kernel/Math/Vector.h"
-#include "Kernel/State/Random.h"
+#include "Kernel/Foundation/Math/Vector.h"
+#include "Kernel/Foundation/State/Random.h"
 
 // Equal grains whose near neighbours are all joined by bridges of the same resistance.
 

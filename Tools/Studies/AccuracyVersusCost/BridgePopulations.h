@@ -4,7 +4,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "Kernel/Species/Adhesion/Shared/ExactBridge.h"
+#include "Kernel/Features/LiquidBridges/Shared/ExactBridge.h"
 
 namespace pendular {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "Kernel/Files/CsvFile.h"
-#include "Kernel/Species/LawNames.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
+#include "Kernel/Laws/Species/LawNames.h"
 #include "Tools/Studies/AccuracyVersusCost/RibbedDrum.h"
 #include "Tools/Studies/AccuracyVersusCost/Statistics.h"
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "Drivers/Shared/Beverloo.h"
-#include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Math/EigenConversion.h"
-#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Foundation/Math/EigenConversion.h"
+#include "Kernel/Scene/Simulation.h"
 
 // Figures of grains in bulk.
 

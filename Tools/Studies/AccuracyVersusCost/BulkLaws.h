@@ -4,9 +4,9 @@
 #include <string_view>
 
 #include "Drivers/Shared/BedMaterial.h"
-#include "Kernel/Species/Friction/SlidingFriction.h"
-#include "Kernel/Species/Laws.h"
-#include "Kernel/Species/TimeStepAdvice.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
+#include "Kernel/Laws/Species/TimeStepAdvice.h"
 
 // The laws that the study of bulk figures compares: one material, in the parameters of each.
 

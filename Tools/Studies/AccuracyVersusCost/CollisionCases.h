@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "Kernel/Motion/Integrator.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Core/Motion/Integrator.h"
+#include "Kernel/Features/Laws.h"
 #include "Tools/Studies/AccuracyVersusCost/StudiedCollision.h"
 
 // The collisions by which integrators are compared, and how far one is from the exact one.

@@ -1,6 +1,6 @@
 #include "Tools/Studies/AccuracyVersusCost/CriticalChart.h"
 
-#include "Kernel/Files/CsvFile.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
 #include "Tools/Studies/AccuracyVersusCost/CriticalStep.h"
 
 namespace pendular {

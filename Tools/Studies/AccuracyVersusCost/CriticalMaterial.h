@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "Kernel/Motion/StabilityLimit.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Core/Motion/StabilityLimit.h"
+#include "Kernel/Features/Laws.h"
 
 // The material of the scenes in which critical steps are measured: any composition of laws.
 

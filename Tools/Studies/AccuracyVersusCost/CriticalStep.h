@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/State/Random.h"
+#include "Kernel/Foundation/State/Random.h"
+#include "Kernel/Scene/Simulation.h"
 #include "Tools/Studies/AccuracyVersusCost/CriticalMaterial.h"
 
 // The largest stable step, measured: the one above which small disturbances of grains at rest grow.

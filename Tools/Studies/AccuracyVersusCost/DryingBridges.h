@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Kernel/Species/Bodies.h"
+#include "Kernel/Laws/Concepts/Bodies.h"
 
 // A bridge that loses liquid at a gap, prepared again only when its volume has changed by so much.
 

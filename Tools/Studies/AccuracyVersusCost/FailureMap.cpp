@@ -1,6 +1,6 @@
 #include "Tools/Studies/AccuracyVersusCost/FailureMap.h"
 
-#include "Kernel/Files/CsvFile.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
 
 namespace pendular {
 namespace {

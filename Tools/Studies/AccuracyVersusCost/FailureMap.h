@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <numbers>
 
-#include "Kernel/Species/Adhesion/Shared/BridgeError.h"
-#include "Kernel/Species/BridgeLaws.h"
+#include "Kernel/Features/LiquidBridges/Shared/BridgeError.h"
+#include "Kernel/Scene/BridgeLaws.h"
 
 // A map of where each bridge law fails: a region for each volume and contact angle, between equal spheres.
 

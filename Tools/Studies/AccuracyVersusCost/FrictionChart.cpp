@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Files/CsvFile.h"
-#include "Kernel/Species/Adhesion/Shared/BridgeError.h"
+#include "Kernel/Features/LiquidBridges/Shared/BridgeError.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
 #include "Tools/Studies/AccuracyVersusCost/FrictionErrors.h"
 #include "Tools/Studies/AccuracyVersusCost/FrictionTiming.h"
 

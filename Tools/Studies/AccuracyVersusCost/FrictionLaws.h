@@ -1,11 +1,11 @@
 #pragma once
 
-#include "Kernel/PartialSlip/ElasticImpact.h"
-#include "Kernel/Species/Friction/MindlinIncremental.h"
-#include "Kernel/Species/Friction/MindlinPartialSlip.h"
-#include "Kernel/Species/Friction/MindlinSecant.h"
-#include "Kernel/Species/Friction/SlidingFriction.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Laws/Friction/MindlinIncremental.h"
+#include "Kernel/Laws/Friction/MindlinPartialSlip.h"
+#include "Kernel/Laws/Friction/MindlinSecant.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
+#include "Tools/Reference/ElasticImpact.h"
 
 // The friction laws that are compared with the exact contact, each as a contact that can be moved.
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "Kernel/Math/CountedRandom.h"
-#include "Kernel/PartialSlip/ElasticImpact.h"
+#include "Kernel/Foundation/Math/CountedRandom.h"
+#include "Tools/Reference/ElasticImpact.h"
 
 // Paths of overlap and slip on which friction laws are compared with the exact contact.
 

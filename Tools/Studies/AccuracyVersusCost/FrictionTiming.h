@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Kernel/Contacts/MemoryColumns.h"
+#include "Kernel/Core/Contacts/MemoryColumns.h"
 #include "Tools/Studies/AccuracyVersusCost/FrictionLaws.h"
 #include "Tools/Timing/Timing.h"
 

@@ -3,8 +3,8 @@
 #include <limits>
 #include <numbers>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Files/CsvFile.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
 #include "Tools/Studies/AccuracyVersusCost/CollisionCases.h"
 #include "Tools/Studies/AccuracyVersusCost/CollisionTheory.h"
 #include "Tools/Studies/AccuracyVersusCost/SeenCollision.h"

@@ -6,9 +6,9 @@
 
 #include "Drivers/Shared/BedMaterial.h"
 #include "Drivers/Shared/GrainLattice.h"
-#include "Kernel/Motion/Integrator.h"
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Core/Motion/Integrator.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Scene/Simulation.h"
 #include "Tools/Studies/AccuracyVersusCost/Statistics.h"
 
 namespace pendular {

@@ -5,7 +5,7 @@
 
 #include "Drivers/Shared/GrainLattice.h"
 #include "Drivers/Shared/GrainRows.h"
-#include "Kernel/Particles/GrainSums.h"
+#include "Kernel/Features/EnergyLedger/GrainSums.h"
 #include "Tools/Studies/AccuracyVersusCost/BulkFigures.h"
 #include "Tools/Studies/AccuracyVersusCost/BulkLaws.h"
 

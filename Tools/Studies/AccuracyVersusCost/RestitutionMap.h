@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "Kernel/Files/CsvFile.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
 #include "Tools/Studies/AccuracyVersusCost/DampedCollisions.h"
 
 // How far the restitution of a collision is from the one that its law was given, over the step and the loss.

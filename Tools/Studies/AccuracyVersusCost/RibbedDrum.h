@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
 #include "Tools/Studies/AccuracyVersusCost/PouredBed.h"
 
 // Grains in a slice of a rotating drum with ribs, which carry them with any friction.

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "Drivers/Shared/SettledGrains.h"
-#include "Kernel/Files/CsvFile.h"
-#include "Kernel/Species/BridgeLaws.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
+#include "Kernel/Scene/BridgeLaws.h"
 #include "Tools/Studies/AccuracyVersusCost/ShearCell.h"
 #include "Tools/Studies/AccuracyVersusCost/Statistics.h"
 

@@ -7,9 +7,9 @@
 #include "Drivers/Shared/BedMaterial.h"
 #include "Drivers/Shared/GrainLattice.h"
 #include "Drivers/Shared/GrainRows.h"
-#include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Core/Contacts/ContactStore.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Scene/Simulation.h"
 
 // Wet grains between two rough walls that shear them: a small scene whose bulk figures depend on the bridges.
 

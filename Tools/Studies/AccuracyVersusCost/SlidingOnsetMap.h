@@ -3,9 +3,9 @@
 #include <limits>
 #include <numbers>
 
-#include "Kernel/Files/CsvFile.h"
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
+#include "Kernel/Scene/Simulation.h"
 
 // A map of when a sphere that is pushed along a plane begins to slide, against Coulomb's limit.
 

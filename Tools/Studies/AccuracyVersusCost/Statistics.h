@@ -5,7 +5,7 @@
 #include <ctime>
 #include <vector>
 
-#include "Kernel/Species/Field.h"
+#include "Kernel/Laws/Concepts/Field.h"
 
 // Times of this program, means and medians.
 

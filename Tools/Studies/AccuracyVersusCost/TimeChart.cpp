@@ -1,6 +1,6 @@
 #include "Tools/Studies/AccuracyVersusCost/TimeChart.h"
 
-#include "Kernel/Files/CsvFile.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
 #include "Tools/Studies/AccuracyVersusCost/CollisionCases.h"
 #include "Tools/Studies/AccuracyVersusCost/IntegratorCost.h"
 

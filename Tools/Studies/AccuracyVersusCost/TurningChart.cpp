@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Files/CsvFile.h"
-#include "Kernel/Motion/FreeTurn.h"
+#include "Kernel/Features/RigidBodies/FreeTurn.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
 #include "Tools/Timing/Timing.h"
 
 namespace pendular {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Scene/Simulation.h"
 #include "Tools/Studies/AccuracyVersusCost/BridgeNetwork.h"
 #include "Tools/Studies/AccuracyVersusCost/ViscousPair.h"
 

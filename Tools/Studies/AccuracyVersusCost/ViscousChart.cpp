@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "Kernel/Files/CsvFile.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
 #include "Tools/Studies/AccuracyVersusCost/ViscousPair.h"
 #include "Tools/Studies/AccuracyVersusCost/ViscousTiming.h"
 

@@ -4,9 +4,9 @@
 #include <numbers>
 #include <utility>
 
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Species/Adhesion/CombinedLaws.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/CombinedLaws.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
+#include "Kernel/Scene/Simulation.h"
 
 // Two equal grains that a viscous bridge joins at a gap, and what becomes of their speed: in closed form, and
 // in the kernel at a time step.

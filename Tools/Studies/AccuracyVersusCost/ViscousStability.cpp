@@ -1,6 +1,6 @@
 #include "Tools/Studies/AccuracyVersusCost/ViscousStability.h"
 
-#include "Kernel/Files/CsvFile.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
 #include "Tools/Studies/AccuracyVersusCost/ViscousBed.h"
 
 namespace pendular {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "Kernel/Contacts/MemoryColumns.h"
+#include "Kernel/Core/Contacts/MemoryColumns.h"
 #include "Tools/Studies/AccuracyVersusCost/ViscousPair.h"
 #include "Tools/Timing/Timing.h"
 

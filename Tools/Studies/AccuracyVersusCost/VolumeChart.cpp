@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "Kernel/Files/CsvFile.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
 #include "Tools/Studies/AccuracyVersusCost/DryingBridges.h"
 #include "Tools/Timing/BridgeTiming.h"
 

@@ -4,8 +4,8 @@
 
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Simulation/Program.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Foundation/Base/InputError.h"
 #include "Tools/Studies/AccuracyVersusCost/BridgeChart.h"
 #include "Tools/Studies/AccuracyVersusCost/BulkChart.h"
 #include "Tools/Studies/AccuracyVersusCost/ContactMaps.h"

@@ -3,7 +3,7 @@
 #include "BuildFolders.h"
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Simulation/Program.h"
+#include "Kernel/Core/Run/Program.h"
 #include "Tools/Studies/AccuracyVersusCost/SceneComparison.h"
 
 using namespace pendular;

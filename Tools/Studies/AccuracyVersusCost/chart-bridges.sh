@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures accuracy against cost of the liquid bridge laws, and draws the charts: Tools/Studies/Results/bridges*.csv and .png,
-# Kernel/Species/Adhesion/failure-maps.png. Some ten minutes with the scenes. It measures times: use an idle machine.
+# Kernel/Features/LiquidBridges/failure-maps.png. Some ten minutes with the scenes. It measures times: use an idle machine.
 #   Tools/Studies/AccuracyVersusCost/chart-bridges.sh [--build build/release] [--scenes no]
 set -euo pipefail
 study=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -26,7 +26,7 @@ result() {  # name of the result, program, options...
 result bridges accuracy-versus-cost --bridges --runs 3000
 gnuplot -c "$study/bridges.gp" "$results/bridges.csv" "$results/bridges"
 "$build/Tools/Studies/accuracy-versus-cost" --failure-maps --output "$work/failure-maps.csv"
-gnuplot -c "$study/failure-maps.gp" "$work/failure-maps.csv" "$tools/../Kernel/Species/Adhesion/failure-maps.png"
+gnuplot -c "$study/failure-maps.gp" "$work/failure-maps.csv" "$tools/../Kernel/Features/LiquidBridges/failure-maps.png"
 if [[ $scenes == yes ]]; then
     result bridges-in-scenes bridge-scenes
     result bridges-in-scenes-partial-wetting bridge-scenes --dimensionless-volume 0.001 --contact-angle-deg 50

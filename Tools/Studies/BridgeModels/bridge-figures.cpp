@@ -13,14 +13,14 @@
 
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Capillary/CapillaryBridge.h"
-#include "Kernel/Capillary/FreeDrop.h"
-#include "Kernel/Files/CsvFile.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/Species/Adhesion/Shared/ToroidalBridge.h"
-#include "Kernel/Species/Adhesion/Shared/UnequalToroid.h"
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Features/LiquidBridges/Shared/ToroidalBridge.h"
+#include "Kernel/Features/LiquidBridges/Shared/UnequalToroid.h"
+#include "Kernel/Features/LiquidBridges/YoungLaplace/CapillaryBridge.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
+#include "Tools/Reference/FreeDrop.h"
 
 using namespace pendular;
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "Drivers/Shared/GrainLattice.h"
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Species/LawNames.h"
-#include "Kernel/Walls/TriangleReader.h"
+#include "Kernel/Features/Meshes/TriangleReader.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Laws/Species/LawNames.h"
 
 // Five small scenes that Pendular, LIGGGHTS and LAMMPS can all have: only spheres, planes and a cylinder.
 

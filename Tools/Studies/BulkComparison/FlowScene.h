@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "Kernel/Files/FileFault.h"
+#include "Kernel/Foundation/Files/FileFault.h"
 #include "Tools/Studies/BulkComparison/MixerScene.h"
 #include "Tools/Studies/BulkComparison/PeerFiles.h"
 #include "Tools/Studies/BulkComparison/PeerScene.h"

@@ -4,8 +4,8 @@
 
 #include <fstream>
 
-#include "Kernel/Files/CsvFile.h"
-#include "Kernel/Files/FileFault.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
+#include "Kernel/Foundation/Files/FileFault.h"
 #include "Tools/Studies/BulkComparison/FrameFigures.h"
 
 // What LIGGGHTS and LAMMPS begin with, and the frames that they write.

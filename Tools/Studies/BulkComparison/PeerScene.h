@@ -1,9 +1,9 @@
 #pragma once
 
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Species/Laws.h"
-#include "Kernel/Walls/AxisymmetricWall.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Features/CurvedWalls/AxisymmetricWall.h"
+#include "Kernel/Features/Laws.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
+#include "Kernel/Scene/Simulation.h"
 #include "Tools/Studies/BulkComparison/BulkScene.h"
 
 namespace pendular::bulk {

@@ -3,9 +3,9 @@
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Drivers/Shared/ProcessorTime.h"
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/Simulation/SoftestModulus.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Scene/TimeStep/SoftestModulus.h"
 #include "Tools/Studies/BulkComparison/PeerFiles.h"
 #include "Tools/Studies/BulkComparison/PeerScene.h"
 

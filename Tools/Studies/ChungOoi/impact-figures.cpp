@@ -7,8 +7,8 @@
 
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Files/CsvFile.h"
-#include "Kernel/Simulation/Program.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Foundation/Files/CsvFile.h"
 #include "Tools/Studies/ChungOoi/ChungOoiCases.h"
 
 using namespace pendular;

@@ -12,11 +12,11 @@
 #include "Drivers/Shared/ProcessorTime.h"
 #include "Drivers/Shared/RunOptions.h"
 #include "Drivers/Shared/SettledGrains.h"
-#include "Kernel/CoarseGraining/FieldSums.h"
-#include "Kernel/CoarseGraining/SceneState.h"
+#include "Kernel/Analysis/CoarseGraining/FieldSums.h"
+#include "Kernel/Analysis/CoarseGraining/SceneState.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Foundation/State/Random.h"
 #include "Kernel/MercuryNames.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/State/Random.h"
 
 using namespace pendular;
 

@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "Kernel/Math/Vector.h"
+#include "Kernel/Foundation/Math/Vector.h"
 
 namespace pendular::lattice {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Species/Field.h"
+#include "Kernel/Laws/Concepts/Field.h"
 
 namespace pendular::lattice {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Kernel/Species/Field.h"
+#include "Kernel/Laws/Concepts/Field.h"
 
 namespace pendular::lattice {
 

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "Kernel/Math/Vector.h"
+#include "Kernel/Foundation/Math/Vector.h"
 
 namespace pendular::lattice {
 

@@ -7,11 +7,11 @@
 #include <cstring>
 #include <numbers>
 
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Base/Parallel.h"
-#include "Kernel/Math/ElementaryFunctions.h"
-#include "Kernel/Math/Pack.h"
-#include "Kernel/Species/Field.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Foundation/Base/Parallel.h"
+#include "Kernel/Foundation/Math/ElementaryFunctions.h"
+#include "Kernel/Foundation/Math/Pack.h"
+#include "Kernel/Laws/Concepts/Field.h"
 
 namespace pendular::lattice {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 #include "Tools/Studies/LatticeBoltzmann/TwoFluids.h"
 
 namespace pendular::lattice {

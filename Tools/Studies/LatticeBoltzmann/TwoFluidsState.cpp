@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 #include "Tools/Studies/LatticeBoltzmann/TwoFluids.h"
 
 namespace pendular::lattice {

@@ -8,10 +8,10 @@
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Drivers/Shared/ProcessorTime.h"
-#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Core/Run/Program.h"
 #include "Kernel/MercuryNames.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Scene/StateHash.h"
 
 using namespace pendular;
 

@@ -6,12 +6,12 @@
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Drivers/Shared/ProcessorTime.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Output/Hdf5Output.h"
-#include "Kernel/Output/MercuryOutput.h"
-#include "Kernel/Output/ParaViewOutput.h"
-#include "Kernel/Simulation/LastState.h"
-#include "Kernel/Simulation/Program.h"
+#include "Kernel/Analysis/Output/Hdf5Output.h"
+#include "Kernel/Analysis/Output/ParaViewOutput.h"
+#include "Kernel/Core/Contacts/ContactSystem.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Mercury/MercuryOutput.h"
+#include "Kernel/Scene/LastState.h"
 
 using namespace pendular;
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Math/Vector.h"
-#include "Kernel/State/Random.h"
+#include "Kernel/Foundation/Math/Vector.h"
+#include "Kernel/Foundation/State/Random.h"
 
 namespace pendular {
 

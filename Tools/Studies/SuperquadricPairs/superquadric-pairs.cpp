@@ -9,10 +9,10 @@
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Drivers/Shared/ProcessorTime.h"
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Shapes/SuperquadricPair.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/Species/Field.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Features/Superquadrics/SuperquadricPair.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Laws/Concepts/Field.h"
 #include "Tools/Studies/SuperquadricPairs/RandomDirection.h"
 
 using namespace pendular;

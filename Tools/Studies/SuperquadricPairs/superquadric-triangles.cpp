@@ -11,12 +11,12 @@
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Drivers/Shared/ProcessorTime.h"
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/Species/Field.h"
-#include "Kernel/Superquadrics/ExtremeContact.h"
-#include "Kernel/Superquadrics/ShapeAtWall.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
+#include "Kernel/Features/Superquadrics/ExtremeContact.h"
+#include "Kernel/Features/Superquadrics/ShapeAtWall.h"
+#include "Kernel/Foundation/Base/InputError.h"
+#include "Kernel/Laws/Concepts/Field.h"
 #include "Tools/Studies/SuperquadricPairs/RandomDirection.h"
 
 using namespace pendular;

@@ -6,10 +6,10 @@
 
 #include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Simulation/Program.h"
-#include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Walls/TriangleWall.h"
+#include "Kernel/Core/Run/Program.h"
+#include "Kernel/Features/Meshes/TriangleWall.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Scene/Simulation.h"
 
 using namespace pendular;
 

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
-#include "Kernel/Species/Adhesion/ReversibleAdhesive.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Friction/SlidingFriction.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Laws/Adhesion/ReversibleAdhesive.h"
+#include "Kernel/Laws/Friction/Mindlin.h"
+#include "Kernel/Laws/Friction/SlidingFriction.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "Tools/Studies/AccuracyVersusCost/CriticalStep.h"
 
 // The step that the contacts of a scene stand (SelfTests/Motion/ContactBoundTest.cpp), against runs.

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "Kernel/Base/RunError.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "SelfTests/Support/Refusal.h"
 #include "Tools/Studies/AccuracyVersusCost/DampedCollisions.h"
 

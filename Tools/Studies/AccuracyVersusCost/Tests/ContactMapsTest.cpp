@@ -45,7 +45,7 @@ protected:
 // samples errs with n^(-5/4) at both ends of the touch, in units of the dashpot's share of a contact of n
 // steps. Of the linear one the start errs with 2 (L h)^2, L h = z pi/n, at most e^(-pi z / sqrt(1 - z^2)) of
 // the speed: below n^(-5/4) too. What has no rebound has none at any step. The README of
-// Kernel/Species/Normal promises less, as it is seen.
+// Kernel/Laws/Normal promises less, as it is seen.
 TEST_F(HeavyContactMaps, restitutionConvergesToTheSetOne) {
     const std::map<std::string, double> readme{{"10", 0.012}, {"20", 0.003}, {"50", 0.0005}};
     int compared = 0, withoutRebound = 0;

@@ -3,11 +3,11 @@
 #include <array>
 #include <cmath>
 
-#include "Kernel/Species/Adhesion/ReversibleAdhesive.h"
-#include "Kernel/Species/Friction/MindlinPartialSlip.h"
-#include "Kernel/Species/Friction/SlidingRollingTorsion.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Laws/Adhesion/ReversibleAdhesive.h"
+#include "Kernel/Laws/Friction/MindlinPartialSlip.h"
+#include "Kernel/Laws/Friction/SlidingRollingTorsion.h"
+#include "Kernel/Laws/Normal/HertzianViscoelastic.h"
+#include "Kernel/Laws/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "Tools/Studies/AccuracyVersusCost/CriticalStep.h"
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "BuildFolders.h"
-#include "Kernel/Motion/Integrator.h"
-#include "Kernel/Species/BridgeLaws.h"
+#include "Kernel/Core/Motion/Integrator.h"
+#include "Kernel/Scene/BridgeLaws.h"
 #include "SelfTests/Support/CsvRows.h"
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TestFolder.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeBagheri.h"
 
 namespace pendular::shearCellTest {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
+#include "Kernel/Features/LiquidBridges/Adhesion/LiquidBridgeBagheri.h"
 #include "Tools/Studies/AccuracyVersusCost/DryingBridges.h"
 #include "Tools/Studies/AccuracyVersusCost/ViscousBed.h"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 #include "Tools/Studies/LatticeBoltzmann/Bridge.h"
 
 namespace pendular::lattice::bridgeGatesTest {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 #include "Tools/Studies/LatticeBoltzmann/Bridge.h"
 
 namespace pendular::lattice::pairTest {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "Kernel/Base/InputError.h"
+#include "Kernel/Foundation/Base/InputError.h"
 #include "Tools/Studies/LatticeBoltzmann/Measures.h"
 
 namespace pendular::lattice::twoFluidsTest {
