@@ -76,7 +76,18 @@ double SurfaceExtent::displacement(const Pose& from, const Pose& to) const {
     const double carried = symmetry == Symmetry::Cylinder ? norm(shift - along)
                            : symmetry == Symmetry::Plane  ? norm(along)
                                                           : norm(shift);
-    return turned == 0 ? carried : carried + turned * radius;
+    if (turned == 0) return carried;
+    double way = turned * radius;
+    if (symmetry == Symmetry::None && norm(half) > 0) {
+        // No point goes farther than a corner of the box, which is less where a long mesh turns about its
+        // length.
+        const Vector<double> x = half.x * (to.column[0] - from.column[0]),
+                             y = half.y * (to.column[1] - from.column[1]),
+                             z = half.z * (to.column[2] - from.column[2]);
+        const double corner = std::max({norm(x + y + z), norm(x + y - z), norm(x - y + z), norm(x - y - z)});
+        way = std::min(way, (1 + 1e-12) * corner);
+    }
+    return carried + way;
 }
 
 void RigidWall::takePlace() {
