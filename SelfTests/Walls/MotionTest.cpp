@@ -330,5 +330,35 @@ TEST(Motion, aDrumCarriesGrainsUp) {
     EXPECT_NEAR(torque / moment, 1, 0.2);
 }
 
+/// A long box, turned about any axis: none of its points goes farther than is said, and of a turn about its
+/// length a corner's way is said (with half lengths h, sqrt(2) h times 2 sin(angle / 2)), which is less than
+/// that of the sphere around it.
+TEST(Motion, ofALongMeshIsThatOfTheCornersOfItsBox) {
+    Random random(7);
+    SurfaceExtent extent;
+    extent.centre = {0.3, -0.2, 0.1};
+    extent.half = {2, 0.1, 0.1};
+    extent.radius = norm(extent.half);
+    const auto turned = [&](const Vector<double>& axis, double angle) {
+        return Pose::turnedAbout((1 / norm(axis)) * axis, extent.centre, angle);
+    };
+    const double about = extent.displacement({}, turned({1, 0, 0}, 0.3));
+    EXPECT_NEAR(about, std::numbers::sqrt2 * 0.1 * 2 * std::sin(0.15), 1e-10);
+    for (int k = 0; k < 200; ++k) {
+        const auto any = [&] { return random.uniform(-1, 1); };
+        const Pose from = turned({any(), any(), any()}, any());
+        Pose to = turned({any(), any(), any()}, 0.2 * any()).after(from);
+        to.shift = to.shift + Vector<double>{any(), any(), any()};
+        double farthest = 0;
+        for (int point = 0; point < 50; ++point) {
+            const Vector<double> x =
+                extent.centre +
+                Vector<double>{extent.half.x * any(), extent.half.y * any(), extent.half.z * any()};
+            farthest = std::max(farthest, norm(to.place(x) - from.place(x)));
+        }
+        EXPECT_GE(extent.displacement(from, to), farthest);
+    }
+}
+
 }  // namespace
 }  // namespace pendular::motionTest
