@@ -272,6 +272,10 @@ int run(const Options& options) {
             fmt::format("benchmark-scenes: the scene {} has no files for other codes; --grains "
                         "prints the grains of a bed.",
                         options.choice.scene));
+    constexpr std::size_t fewestInFlow = 200;
+    if (flows && options.choice.particlesOr(fewestInFlow) < fewestInFlow)
+        throw InputError(fmt::format("benchmark-scenes: particles = {}: the scene {} needs at least {}.",
+                                     options.choice.particles, options.choice.scene, fewestInFlow));
     if (options.grains) return printGrains(options), 0;
     scenes::check(options.choice, bulk::flowSceneNames);
     checkValue("benchmark-scenes", "steps", static_cast<double>(options.steps), "", {1, 1e12});

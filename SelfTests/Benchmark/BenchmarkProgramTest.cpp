@@ -129,6 +129,7 @@ TEST(BenchmarkProgram, refusesWithOneSentence) {
     expectRefusal("--scene bed --positions /nowhere/grains.txt", "/nowhere/grains.txt");
     expectRefusal("--scene clumps --clumps 2", "needs positions");
     expectRefusal("--scene gas --clumps 2", "takes no clumps");
+    expectRefusal("--scene flowing-drum --particles 10", "needs at least 200");
     expectRefusal("--scene gas --particles 10 --steps 0", "steps = 0");
     expectRefusal("--scene gas --particles 10 --threads 0", "threads = 0");
 }

@@ -139,25 +139,6 @@ struct Listing {
         EXPECT_EQ(found, expected);
     }
 
-    /// Looked for among all contacts, the sides of a grain are the same, in the same order.
-    void checkOwnSides() {
-        ContactStore unasked;  // with the same contacts
-        unasked.buckets = system.store().buckets;
-        unasked.blocks = system.store().blocks;
-        unasked.states = system.store().states;
-        unasked.slots = system.store().slots;
-        unasked.wallPoints = system.store().wallPoints;
-        unasked.beginSides(grains().identity, 1);
-        const auto grainCount = static_cast<std::uint32_t>(std::min<std::size_t>(30, grains().size()));
-        for (std::uint32_t k = 0; k < grainCount; ++k) {
-            const ContactStore::OwnSides own = unasked.ownSidesOf(k);
-            ASSERT_FALSE(unasked.sides.areMade());
-            const auto awake = system.store().sidesOf(k), asleep = system.store().asleepSidesOf(k);
-            EXPECT_TRUE(std::ranges::equal(own.withMemory, awake));
-            EXPECT_TRUE(std::ranges::is_permutation(own.asleep, asleep));
-        }
-    }
-
     /// No pair of a block can act before two bodies have approached by the block's gap; it is the smallest of
     /// its pairs, rounded to a float and lowered a little.
     void checkGaps() {
@@ -205,7 +186,6 @@ protected:
         }();
         EXPECT_EQ(listing.listed(), expected);
         EXPECT_GT(expected.size(), 0u);
-        listing.checkOwnSides();
         listing.checkSides();
         listing.checkGaps();
         EXPECT_EQ(listing.listed(), expected);  // again, for grains that are sorted already

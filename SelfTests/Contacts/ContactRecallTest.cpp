@@ -53,14 +53,17 @@ protected:
 
     [[nodiscard]] ContactStore copyOfList() const {
         ContactStore copy;
+        copyListInto(copy);
+        copy.memory = store().memory;
+        return copy;
+    }
+    void copyListInto(ContactStore& copy) const {
         copy.buckets = store().buckets;
         copy.blocks = store().blocks;
         copy.states = store().states;
         copy.slots = store().slots;
         copy.gaps = store().gaps;
-        copy.memory = store().memory;
         copy.wallPoints = store().wallPoints;
-        return copy;
     }
 
     /// Recalls what acts into a new list, and returns its slots, states and numbers.
@@ -116,14 +119,37 @@ TYPED_TEST(ContactRecallOf, findsTheSameWhereverItLooksFirst) {
     EXPECT_TRUE(this->recalled(1e-3 * r, 3) == all);
 }
 
+// The contacts of one grain that are found among all are those of the whole list, in the same order; where
+// many are looked up, the list is made.
+TYPED_TEST(ContactRecallOf, findsTheContactsOfOneGrainAmongAll) {
+    const auto& identities = this->grains().identity;
+    ContactStore whole = this->copyOfList(), searched = this->copyOfList();
+    for (ContactStore* each : {&whole, &searched}) each->beginSides(identities, 1);
+    std::size_t withMemory = 0;
+    for (std::uint32_t place = 0; place < 40; ++place) {
+        const ContactStore::OwnSides own = searched.ownSidesOf(place);
+        EXPECT_EQ(searched.sides.areMade(), place >= 32);
+        EXPECT_TRUE(std::ranges::equal(own.withMemory, whole.sidesOf(place))) << place;
+        EXPECT_TRUE(std::ranges::is_permutation(own.asleep, whole.asleepSidesOf(place))) << place;
+        withMemory += own.withMemory.size();
+    }
+    EXPECT_GT(withMemory, 40u);
+}
+
 // Contacts with memory come in the order of their partners, and the others once each.
 TYPED_TEST(ContactRecallOf, listsSidesInTheOrderOfTheirPartners) {
     for (const int threads : {1, 3}) {
         ContactStore fresh = this->copyOfList();
-        fresh.listSides(this->grains().identity, threads);
+        fresh.beginSides(this->grains().identity, 1);
+        (void)fresh.sidesOf(0);
+        // Those of the last list were asked for: they are made at once, by all threads.
+        fresh.releaseList();
+        this->copyListInto(fresh);
+        fresh.beginSides(this->grains().identity, threads);
+        ASSERT_TRUE(fresh.sides.areMade());
         std::size_t count = 0;
         for (std::uint32_t place = 0; place < this->grains().size(); ++place) {
-            const auto awake = fresh.sides.of(place), asleep = fresh.sides.asleepOf(place);
+            const auto awake = fresh.sidesOf(place), asleep = fresh.asleepSidesOf(place);
             EXPECT_TRUE(std::ranges::is_sorted(awake, {}, [&](std::uint32_t side) {
                 return fresh.keyOf(fresh.contactAt(side / 2), side % 2, this->grains().identity);
             }));

@@ -122,7 +122,7 @@ Ending settledWith(double pressure, int threads, int steps) {
     for (std::size_t k = 0; k < grains.size(); ++k) {
         end.positions.push_back(grains.translation[k].position);
         const double perNewton = store.totals.quantum.perNewton(grains.translation[k].radius);
-        for (const std::uint32_t side : store.sides.of(k))
+        for (const std::uint32_t side : store.sidesOf(k))
             end.beyond += ForceQuantum::fits(store.memory.records.force(side / 2), perNewton) ? 0 : 1;
     }
     return end;
@@ -164,7 +164,7 @@ TEST(ForceTotals, haveRoomForTheWholeRangeOfAScene) {
     const ParticleStore& grains = scene.particleHandler.store();
     const ContactStore& store = scene.contacts().store();
     double largest = 0;
-    for (const std::uint32_t side : store.sides.of(0)) {
+    for (const std::uint32_t side : store.sidesOf(0)) {
         const Vector<double> force = store.memory.records.force(side / 2);
         largest = std::max(largest, norm(force));
         EXPECT_TRUE(ForceQuantum::fits(force, store.totals.quantum.perNewton(grains.translation[0].radius)));

@@ -44,17 +44,6 @@ public:
     /// A contact of the grain has memory.
     void markMemory(std::uint32_t grain) { hasMemory[grain] = 1; }
 
-    /// The sides of the contacts with memory of the grain at a place, 2 x place in the memory + (0 or 1).
-    [[nodiscard]] std::span<const std::uint32_t> of(std::size_t grain) const {
-        return {sides.data() + begins[grain], sides.data() + ends[grain]};
-    }
-
-    /// Those of the contacts without memory, 2 x contact + (0 or 1), in no order: it may depend on the
-    /// threads.
-    [[nodiscard]] std::span<const std::uint32_t> asleepOf(std::size_t grain) const {
-        return {sides.data() + ends[grain], sides.data() + begins[grain + 1]};
-    }
-
     /// How many places grains have had since the list was made.
     [[nodiscard]] std::size_t grainCount() const { return hasMemory.size(); }
 
@@ -133,6 +122,18 @@ public:
     [[nodiscard]] std::size_t bytes() const { return bytesOf(begins, ends, sides, hasMemory, identity); }
 
 private:
+    friend class ContactStore;  // which makes them before it reads them
+
+    /// The sides of the contacts with memory of the grain at a place, 2 x place in the memory + (0 or 1).
+    [[nodiscard]] std::span<const std::uint32_t> of(std::size_t grain) const {
+        return {sides.data() + begins[grain], sides.data() + ends[grain]};
+    }
+    /// Those of the contacts without memory, 2 x contact + (0 or 1), in no order: it may depend on the
+    /// threads.
+    [[nodiscard]] std::span<const std::uint32_t> asleepOf(std::size_t grain) const {
+        return {sides.data() + ends[grain], sides.data() + begins[grain + 1]};
+    }
+
     struct Keyed {
         std::uint64_t key;
         std::uint32_t side;

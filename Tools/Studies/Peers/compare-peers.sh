@@ -32,6 +32,10 @@ read -ra bed_sizes <<<"$particles"
 for number in "${bed_sizes[@]:-}"; do require_number particles "$number"; done
 read -ra flow_sizes <<<"$sizes"
 for number in "${flow_sizes[@]:-}"; do require_number sizes "$number"; done
+read -ra flow_skins <<<"$skins"
+for skin in "${flow_skins[@]:-}"; do
+    [[ $skin =~ ^[0-9]*\.?[0-9]+([eE]-?[0-9]+)?$ && $skin =~ ^[0.]*[1-9] ]] || refuse "--skins has '$skin'; it must be lengths in m above 0, for example \"2e-4 4e-4\""
+done
 read -ra pinned <<<"$prefix"
 require_number runs "$runs"
 require_number cores "$cores"
