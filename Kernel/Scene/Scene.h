@@ -293,9 +293,9 @@ public:
     /// Which assumption of stabilityLimit() binds, and what is there instead. After initialise().
     [[nodiscard]] StabilityAdvice stabilityAdvice();
     /// The time step follows the contacts (AdaptiveStep): a share (above 0, up to 1; with 0.9 bulk
-    /// quantities were the same to 2.4 %) of what they and those that may come stand, at most 0.9 over the highest
-    /// frequency of two grains (shortestContactTime() 0.9 / pi) and at most the largest step (s). The run
-    /// begins with setTimeStep(). At set-up. The page on steps says what it does not go with.
+    /// quantities were the same to 2.4 %) of what they and those that may come stand, at most 0.9 over the
+    /// highest frequency of two grains (shortestContactTime() 0.9 / pi) and at most the largest step (s). The
+    /// run begins with setTimeStep(). At set-up. The page on steps says what it does not go with.
     void setAdaptiveTimeStep(double share, std::optional<double> largestStep = {});
     [[nodiscard]] const AdaptiveStep& adaptiveTimeStep() const;
     /// The time step for an error (1) of collisions at a speed (m/s): findStepForError() says how it is

@@ -240,10 +240,11 @@ void Scene::Inside::warnOfEnergyGainOfSprings() const {
         const std::string objection =
             objectionToMeasuredSteps(scene, featuresNow(), checkedSizes, forFigure->figure);
         if (objection.empty()) return;  // beds have stayed at rest with it
-        scene.logger(LogLevel::Warn,
-                     "The time step for {} was chosen before all of the scene was there: {}; call setStepFor() "
-                     "last.",
-                     nameOf(forFigure->figure), objection);
+        scene.logger(
+            LogLevel::Warn,
+            "The time step for {} was chosen before all of the scene was there: {}; call setStepFor() "
+            "last.",
+            nameOf(forFigure->figure), objection);
     }
     const double fewest =
         fewestStepsToDouble(laws(), checkedSizes, scene.wallHandler, contactScheme(context), stepLength());

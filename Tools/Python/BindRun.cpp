@@ -6,6 +6,7 @@
 #include "Kernel/Scene/TimeStep/ChosenTimeStep.h"
 #include "Kernel/Scene/TimeStep/OverlapEstimate.h"
 #include "Kernel/Scene/TimeStep/SoftestModulus.h"
+#include "Kernel/Scene/TimeStep/StepForFigure.h"
 #include "Tools/Python/Bindings.h"
 
 namespace pendular::python {
@@ -41,9 +42,8 @@ std::string setStepFor(Scene& scene, double error, std::optional<double> speed,
     }
     constexpr std::string_view call = "set_step_for()";
     if (speed)
-        throw InputError(
-            fmt::format("{}: speed = {} m/s does not go with figure = \"{}\"; give one of them.", call,
-                        *speed, *figure));
+        throw InputError(fmt::format("{}: speed = {} m/s does not go with figure = \"{}\"; give one of them.",
+                                     call, *speed, *figure));
     const WantedFigure wanted = wantedFigure(*figure, call, measuredFigures(), '_');
     const std::string name = snakeNameOf(wanted);
     if (std::ranges::find(measuredFigures(), wanted) == measuredFigures().end())
@@ -53,7 +53,8 @@ std::string setStepFor(Scene& scene, double error, std::optional<double> speed,
     scene.setStepFor(wanted, error);
     std::string said = scene.getStepForFigure()->text();
     const std::string_view inCpp = nameOf(wanted);
-    if (const std::size_t at = said.find(inCpp); at != std::string::npos) said.replace(at, inCpp.size(), name);
+    if (const std::size_t at = said.find(inCpp); at != std::string::npos)
+        said.replace(at, inCpp.size(), name);
     return said;
 }
 
