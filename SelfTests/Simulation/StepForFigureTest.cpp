@@ -302,7 +302,7 @@ TEST(StepForFigure, aBedAtRestStaysAtRest) {
 }
 
 // The oracle is the same scene with an eighth of the step. Starts of 1000 grains differ by 0.7 % in the
-// study, so these 96 by some 2.3 %; three times that is asked.
+// study, so these 96 by some 2.3 %; three times that is allowed.
 TEST(StepForFigure, keepsTheHeightOfABed) {
     const auto heightAt = [](double share) {
         PouredBed bed(6);

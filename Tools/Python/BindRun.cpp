@@ -102,7 +102,7 @@ void bindTime(SceneClass& scene) {
             "the longest that is exact enough is taken. With a figure it is the longest with which this bulk "
             "quantity kept to the error in beds, drums and hoppers that were measured, often ten times as "
             "long, where the scene is alike them (dry spheres of nearly one size, HertzianViscoelastic with "
-            "Mindlin, friction 0.3 to 0.8, restitution 0.1 to 0.9, for angles and contacts in flow 0.3 to "
+            "Mindlin, friction 0.25 to 0.8, restitution 0.1 to 0.9, for angles and contacts in flow 0.3 to "
             "0.7); else it is that of choose_time_step(), and the answer says why. "
             "One above the stability limit is accepted; the summary says what was found. At set-up, when "
             "species, integrator, walls and grains are there.\n\n"

@@ -49,14 +49,15 @@ struct MeasuredLaws {
 constexpr std::array<MeasuredLaws, 2> measuredLaws{
     {{"HertzianViscoelasticMindlinSpecies", 3, 3}, {"HertzianViscoelasticMindlinIncrementalSpecies", 2, 0}}};
 constexpr double mostOverlap = 0.14;  // of the smaller radius: what the runs had by estimateOverlaps()
-// The runs had radii from 0.8 to 1 and a friction of 0.5; the margins are small against what is known of
-// their influence on beds and flows. Of restitutions, those of the runs (with rounding).
+// The runs had radii from 0.8 to 1, and in drums and impacts a restitution of 0.5: small margins are added.
+// Of frictions and other restitutions, those of the runs (with rounding).
 constexpr double mostRatioOfRadii = 1.3;
 struct MeasuredRange {
     double least, most;
     [[nodiscard]] bool has(double value) const { return value >= least && value <= most; }
 };
-constexpr MeasuredRange frictions{0.3, 0.8}, restitutions{0.0999, 0.9001}, restitutionsInDrums{0.3, 0.7};
+constexpr MeasuredRange frictions{0.2499, 0.8001}, restitutions{0.0999, 0.9001},
+    restitutionsInDrums{0.3, 0.7};
 
 const MeasuredFigure& measuredRowOf(WantedFigure figure) {
     const auto* const row = std::ranges::find(measured, figure, &MeasuredFigure::figure);
@@ -96,7 +97,7 @@ std::string objectionTo(const PairLaws& pair, bool inDrums, Domain& found) {
     const MeasuredRange& measuredRestitutions = inDrums ? restitutionsInDrums : restitutions;
     for (const FieldValue& field : pair.laws.fields(pair.a, pair.b)) {
         if (field.name == "slidingFrictionCoefficient" && !frictions.has(field.value))
-            return fmt::format("a friction of {:.3g}, not between {:g} and {:g}, was not measured",
+            return fmt::format("a friction of {:.3g}, not between {:.2g} and {:.2g}, was not measured",
                                field.value, frictions.least, frictions.most);
         if (field.name != "dissipation") continue;
         HertzianViscoelastic law;

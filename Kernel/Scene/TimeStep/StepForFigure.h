@@ -39,10 +39,11 @@ struct StepForFigure {
 ///
 /// The runs had spheres of nearly one size (a ratio of radii of 1.25; up to 1.3 is taken),
 /// HertzianViscoelastic with Mindlin (MindlinIncremental up to x = 0.9, in beds and hoppers), dry, a friction
-/// of 0.5 (0.3 to 0.8 is taken), a restitution of 0.1 to 0.9 (0.5 in drums and impacts; for Friction and
-/// ContactsInFlow 0.3 to 0.7 is taken) and the default integrator. In another scene (also one with walls that
-/// forces move, membranes, shear or strain, liquid, or parts of the driver's own), for a smaller error, and
-/// where overlaps are estimated to be above 14 % of a radius, the step is that of chosenTimeStep().
+/// of 0.5 (in beds 0.25 to 0.8, which is taken), a restitution of 0.1 to 0.9 (0.5 in drums and impacts; for
+/// Friction and ContactsInFlow 0.3 to 0.7 is taken) and the default integrator. In another scene (also one
+/// with walls that forces move, membranes, shear or strain, liquid, or parts of the driver's own), for a
+/// smaller error, and where overlaps are estimated to be above 14 % of a radius, the step is that of
+/// chosenTimeStep().
 ///
 /// Throws InputError where a number is out of its range, there are no grains, or the figure follows single
 /// collisions (ContactTime, ContactArea, Waves).
