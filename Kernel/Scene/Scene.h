@@ -292,10 +292,10 @@ public:
     [[nodiscard]] double stableStepOfContacts();
     /// Which assumption of stabilityLimit() binds, and what is there instead. After initialise().
     [[nodiscard]] StabilityAdvice stabilityAdvice();
-    /// The time step follows the contacts (AdaptiveStep): a share (above 0, up to 1; with 0.9 bulk figures
-    /// were the same to 2.4 %) of what they and those that may come stand, at most 0.9 over the highest
-    /// frequency of two grains (shortestContactTime() 0.9 / pi) and at most the largest step (s). The run
-    /// begins with setTimeStep(). At set-up. The page on steps says what it does not go with.
+    /// The time step follows the contacts (AdaptiveStep): a share (above 0, up to 1; with 0.9 bulk
+    /// quantities were the same to 2.4 %) of what they and those that may come stand, at most 0.9 over the
+    /// highest frequency of two grains (shortestContactTime() 0.9 / pi) and at most the largest step (s). The
+    /// run begins with setTimeStep(). At set-up. The page on steps says what it does not go with.
     void setAdaptiveTimeStep(double share, std::optional<double> largestStep = {});
     [[nodiscard]] const AdaptiveStep& adaptiveTimeStep() const;
     /// The time step for an error (1) of collisions at a speed (m/s): findStepForError() says how it is
@@ -307,14 +307,14 @@ public:
     void setStepFor(double error, std::optional<double> speed = {});
     /// What setStepFor() found, if the time step is still its own.
     [[nodiscard]] std::optional<StepForError> getStepForError() const;
-    /// The longest time step with which a bulk figure is right to an error (1): findStepForFigure() says
+    /// The longest time step with which a bulk quantity is right to an error (1): findStepForFigure() says
     /// where this was measured, and when it throws. At set-up, when species, integrator, walls and grains are
     /// there.
     [[nodiscard]] StepForFigure stepForError(WantedFigure figure, double error);
-    /// Takes the time step that stepForError() finds for a bulk figure. One above the stability limit is
+    /// Takes the time step that stepForError() finds for a bulk quantity. One above the stability limit is
     /// accepted; the summary says what was found.
     void setStepFor(WantedFigure figure, double error);
-    /// What setStepFor() found for a bulk figure, if the time step is still its own.
+    /// What setStepFor() found for a bulk quantity, if the time step is still its own.
     [[nodiscard]] std::optional<StepForFigure> getStepForFigure() const;
     [[nodiscard]] const Integrator& getIntegrator() const;
     /// The integrator as the scene uses it: springsInStep where the friction lacks dashpots, or with the

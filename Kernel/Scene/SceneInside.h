@@ -49,6 +49,8 @@ public:
     [[nodiscard]] bool takesSpringsInStep(const GrainSizes& sizes) const;
     /// The features that the scene has; parts without any sleep from now on.
     [[nodiscard]] Features wakeParts();
+    /// The same, and all parts stay as they are.
+    [[nodiscard]] Features featuresNow() const;
     /// Throws InputError where a change of gravity, shear or strain does not go together with the scene.
     void refuseForMovingImages();
     void warn() const;

@@ -16,6 +16,7 @@
 #include "Kernel/Scene/SceneCheck.h"
 #include "Kernel/Scene/SceneDomain.h"
 #include "Kernel/Scene/SceneInside.h"
+#include "Kernel/Scene/TimeStep/SoftestModulus.h"
 
 // How a scene is set up and checked.
 
@@ -110,6 +111,12 @@ Features Scene::Inside::featuresOfScene() const {
 
 Features Scene::Inside::wakeParts() {
     Features found = parts.wake(context);
+    found.add(featuresOfScene());
+    return found;
+}
+
+Features Scene::Inside::featuresNow() const {
+    Features found = parts.features(context);
     found.add(featuresOfScene());
     return found;
 }
@@ -229,8 +236,16 @@ void Scene::Inside::warn() const {
 }
 
 void Scene::Inside::warnOfEnergyGainOfSprings() const {
-    const auto forFigure = scene.getStepForFigure();
-    if (forFigure && forFigure->isKnown()) return;  // beds have stayed at rest with it
+    if (const auto forFigure = scene.getStepForFigure(); forFigure && forFigure->isKnown()) {
+        const std::string objection =
+            objectionToMeasuredSteps(scene, featuresNow(), checkedSizes, forFigure->figure);
+        if (objection.empty()) return;  // beds have stayed at rest with it
+        scene.logger(
+            LogLevel::Warn,
+            "The time step for {} was chosen before all of the scene was there: {}; call setStepFor() "
+            "last.",
+            nameOf(forFigure->figure), objection);
+    }
     const double fewest =
         fewestStepsToDouble(laws(), checkedSizes, scene.wallHandler, contactScheme(context), stepLength());
     if (fewest > 1e7) return;

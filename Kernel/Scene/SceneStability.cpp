@@ -100,8 +100,9 @@ std::optional<StepForError> Scene::getStepForError() const {
 }
 
 StepForFigure Scene::stepForError(WantedFigure figure, double error) {
-    requireSetUp("time step for a bulk figure");
-    return findStepForFigure(*this, figure, error);
+    requireSetUp("time step for a bulk quantity");
+    inside->contextNow(0);
+    return findStepForFigure(*this, inside->featuresNow(), figure, error);
 }
 
 void Scene::setStepFor(WantedFigure figure, double error) {

@@ -3,6 +3,8 @@
 A kind of advice (the law, the step, warnings) has one page that states it, with a table of the programs that do otherwise and why.
 The tests below read the page, and compare it with the other pages, with the module, and with the sources of all programs.
 """
+import csv
+import math
 import re
 import warnings
 from pathlib import Path
@@ -163,6 +165,37 @@ def without_a_reason(call):
 def test_drivers_above_the_stability_limit_say_why():
     """All others are refused by the kernel, if their step is above it."""
     assert not without_a_reason("acceptUnstableTimeStep()")
+
+
+# The runs of each column of the table, by their restitution and step over Rayleigh's time.
+RUNS = [{("0.5", "0.15")}, {("0.5", "0.272"), ("0.9", "0.272"), ("0.2", "0.128"), ("0.5", "0.3")},
+        {("0.5", "0.4"), ("0.9", "0.4"), ("0.2", "0.19"), ("0.1", "0.146")}]
+QUANTITIES = {"SolidFraction": {("bed", "solid_fraction"), ("hopper", "flow_kg/s")}, "ContactsAtRest": {("bed", "coordination")},
+              "ContactsInFlow": {("drum", "coordination"), ("impact", "coordination")},
+              "Friction": {("drum", "centre_angle_deg"), ("drum", "surface_angle_deg")}, "Fluctuations": {("drum", "kinetic_energy_J")}}
+
+
+def rounded_up(percent):
+    """to two digits"""
+    return math.ceil(10 * percent - 1e-9) / 10 if percent < 10 else float(math.ceil(percent))
+
+
+@pytest.mark.parametrize("quantity", QUANTITIES)
+def test_the_errors_of_a_bulk_quantity_are_those_of_the_runs(quantity):
+    """The mean deviation with two standard errors, the largest of the scenes and all shorter steps, on the page and in the kernel."""
+    lines = [line for line in (ROOT / "Tools/Studies/Results/bulk-steps.csv").read_text().splitlines() if not line.startswith("#")]
+    largest, found = 0.0, []
+    for runs in RUNS:
+        for row in csv.DictReader(lines):
+            if ((row["restitution"], row["step_over_rayleigh_time_or_share"]) in runs
+                    and (row["scene"], row["figure"]) in QUANTITIES[quantity]):
+                largest = max(largest, abs(float(row["deviation_percent"])) + 2 * float(row["deviation_standard_error_percent"]))
+        found.append(rounded_up(largest))
+    stated = re.search(rf"^\| `{quantity}`[^|]*\|(.*)\|$", (ROOT / MOTION).read_text(), flags=re.M)[1].replace("%", "")
+    assert [float(cell) for cell in stated.split("|")] == found
+    source = (ROOT / "Kernel/Scene/TimeStep/StepForFigure.cpp").read_text()
+    in_kernel = re.search(rf"WantedFigure::{quantity}, (?:true|false), {{([^}}]*)}}", source)[1]
+    assert [float(cell) for cell in in_kernel.split(",")] == pytest.approx([percent / 100 for percent in found])
 
 
 # Warnings ------------------------------------------------------------------------------------------------------------

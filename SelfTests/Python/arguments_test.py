@@ -166,7 +166,7 @@ SENTENCES = {
                                      "Simulation: the time step for an error can only be set before the run starts."),
     "a step for collisions and for a figure": (
         lambda s: s.set_step_for(0.02, speed=1, figure="friction"),
-        "set_step_for: speed is of collisions and does not go with figure; give one of them."),
+        "set_step_for(): speed = 1 m/s does not go with figure = \"friction\"; give one of them."),
     "a row of grains": (lambda s: s.add_grains(s.glass, [[0, 0, 9], [0, float("nan"), 8]], 1e-3), None),
     "no name of a library": (lambda s: pendular.load_species(""), "load_species() needs the name of a file; it is ''."),
     "two materials without a pair": (lambda s: (s.add_grains(s.add_species("LinearViscoelastic", **MATERIAL), [[0, 0, 9]], 1e-3),

@@ -272,11 +272,16 @@ def test_the_step_for_a_figure():
     scene = tower()
     usual = scene.choose_time_step()
     said = scene.set_step_for(0.05, figure="solid_fraction")
-    assert "for solid-fraction to 0.05" in said and scene.time_step > usual
-    with pytest.raises(pendular.InputError, match="no figure is called"):
+    assert "for solid_fraction to 0.05" in said and scene.time_step > usual
+    assert scene.set_step_for(0.05, figure="solid-fraction") == said
+    with pytest.raises(pendular.InputError) as unknown:
         scene.set_step_for(0.05, figure="angles")
-    with pytest.raises(pendular.InputError, match="single collisions"):
+    assert str(unknown.value) == ('set_step_for(): no figure is called "angles"; there are solid_fraction, friction, contacts_at_rest, '
+                                  "contacts_in_flow, fluctuations.")
+    with pytest.raises(pendular.InputError, match=r"^set_step_for\(\): contact_time follows single collisions"):
         scene.set_step_for(0.05, figure="contact_time")
+    with pytest.raises(pendular.InputError, match=r"^softest_modulus\(\): .* solid_fraction, .* contact_time"):
+        scene.softest_modulus(["angles"], young_modulus=6e10)
 
 
 def test_the_adaptive_step_tells_what_it_chose():

@@ -118,7 +118,15 @@ TEST(SoftestModulus, refusesWhatItCannotAnswer) {
           refusal([] { std::ignore = wantedFigure("angle"); })})
         EXPECT_TRUE(isOneSentence(text)) << text;
     EXPECT_TRUE(contains(refusal([] { std::ignore = wantedFigure("angle"); }), "friction"));
-    for (const WantedFigure figure : allWantedFigures()) EXPECT_EQ(wantedFigure(nameOf(figure)), figure);
+    for (const WantedFigure figure : allWantedFigures()) {
+        EXPECT_EQ(wantedFigure(nameOf(figure)), figure);
+        EXPECT_EQ(wantedFigure(snakeNameOf(figure)), figure);
+    }
+    EXPECT_EQ(refusal([] {
+                  std::ignore =
+                      wantedFigure("angle", "advise()", std::vector{SolidFraction, WantedFigure::Waves}, '_');
+              }),
+              "advise(): no figure is called \"angle\"; there are solid_fraction, waves.");
 }
 
 // A grain of radius r that has h to fall: the scene's pressure is its weight over its shadow, the speed that

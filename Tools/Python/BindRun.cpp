@@ -6,6 +6,7 @@
 #include "Kernel/Scene/TimeStep/ChosenTimeStep.h"
 #include "Kernel/Scene/TimeStep/OverlapEstimate.h"
 #include "Kernel/Scene/TimeStep/SoftestModulus.h"
+#include "Kernel/Scene/TimeStep/StepForFigure.h"
 #include "Tools/Python/Bindings.h"
 
 namespace pendular::python {
@@ -34,17 +35,27 @@ double chooseTimeStep(PythonScene& scene, double stepsInContact) {
 }
 
 std::string setStepFor(Scene& scene, double error, std::optional<double> speed,
-                       std::optional<std::string> figure) {
+                       const std::optional<std::string>& figure) {
     if (!figure) {
         scene.setStepFor(error, speed);
         return scene.getStepForError()->text();
     }
+    constexpr std::string_view call = "set_step_for()";
     if (speed)
-        throw InputError(
-            "set_step_for: speed is of collisions and does not go with figure; give one of them.");
-    std::ranges::replace(*figure, '_', '-');
-    scene.setStepFor(wantedFigure(*figure), error);
-    return scene.getStepForFigure()->text();
+        throw InputError(fmt::format("{}: speed = {} m/s does not go with figure = \"{}\"; give one of them.",
+                                     call, *speed, *figure));
+    const WantedFigure wanted = wantedFigure(*figure, call, measuredFigures(), '_');
+    const std::string name = snakeNameOf(wanted);
+    if (std::ranges::find(measuredFigures(), wanted) == measuredFigures().end())
+        throw InputError(fmt::format(
+            "{}: {} follows single collisions; leave out figure, and the step is that for their error.", call,
+            name));
+    scene.setStepFor(wanted, error);
+    std::string said = scene.getStepForFigure()->text();
+    const std::string_view inCpp = nameOf(wanted);
+    if (const std::size_t at = said.find(inCpp); at != std::string::npos)
+        said.replace(at, inCpp.size(), name);
+    return said;
 }
 
 void bindTime(SceneClass& scene) {
@@ -89,13 +100,14 @@ void bindTime(SceneClass& scene) {
             "The time step for an error (1) of collisions at a speed (m/s; by default the largest that the "
             "scene is about to have): collisions of two grains are computed with steps of many lengths, and "
             "the longest that is exact enough is taken. With a figure it is the longest with which this bulk "
-            "figure kept to the error in beds, drums and hoppers that were measured, often ten times as "
-            "long. "
+            "quantity kept to the error in beds, drums and hoppers that were measured, often ten times as "
+            "long, where the scene is alike them (dry spheres of nearly one size, HertzianViscoelastic with "
+            "Mindlin, friction 0.25 to 0.8, restitution 0.1 to 0.9, for angles and contacts in flow 0.3 to "
+            "0.7); else it is that of choose_time_step(), and the answer says why. "
             "One above the stability limit is accepted; the summary says what was found. At set-up, when "
             "species, integrator, walls and grains are there.\n\n"
             "error: from 0.0001 to 0.1, of a figure from 0.001 to 0.2; speed: m/s, of collisions only; "
-            "figure: "
-            "a name as in softest_modulus(), \"solid_fraction\" (also for the flow from an outlet), "
+            "figure: a bulk quantity: \"solid_fraction\" (also for the flow from an outlet), "
             "\"friction\" (angles), \"contacts_at_rest\", \"contacts_in_flow\" or \"fluctuations\". Returns "
             "what was found, in a few sentences.")
         .def(

@@ -10,10 +10,8 @@ namespace {
 
 std::vector<WantedFigure> figuresNamed(const std::vector<std::string>& names) {
     std::vector<WantedFigure> figures;
-    for (std::string name : names) {
-        std::ranges::replace(name, '_', '-');
-        figures.push_back(wantedFigure(name));
-    }
+    for (const std::string& name : names)
+        figures.push_back(wantedFigure(name, "softest_modulus()", allWantedFigures(), '_'));
     return figures;
 }
 

@@ -40,11 +40,11 @@ namespace pendular {
 namespace {
 
 void addStepForFigure(SummaryRows& rows, const StepForFigure& chosen) {
-    rows.add("step for the bulk figure", nameOf(chosen.figure));
-    rows.addNumber("error of the figure, asked", chosen.asked, "1");
+    rows.add("step for the bulk quantity", nameOf(chosen.figure));
+    rows.addNumber("error of the quantity, wanted", chosen.asked, "1");
     if (chosen.isKnown())
-        rows.addNumber("error of the figure, measured in other scenes", chosen.measured, "1");
-    else rows.add("error of the figure", "not known: " + chosen.unknown);
+        rows.addNumber("error of the quantity, measured in other scenes", chosen.measured, "1");
+    else rows.add("error of the quantity", "not known: " + chosen.unknown);
 }
 
 void addStepForError(SummaryRows& rows, const StepForError& chosen) {

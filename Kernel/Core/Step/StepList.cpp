@@ -41,6 +41,12 @@ Features StepList::wake(const StepContext& context) {
     return all;
 }
 
+Features StepList::features(const StepContext& context) const {
+    Features all;
+    for (const StepPart* const part : parts) all.add(part->features(context));
+    return all;
+}
+
 /// Parts of drivers that do not go together, by their names.
 struct PartsConflict {
     std::string_view one, other, why;

@@ -24,6 +24,8 @@ public:
 
     /// Finds out which parts the scene has, and what it has by them.
     Features wake(const StepContext& context);
+    /// What the scene has by its parts, which stay as they are.
+    [[nodiscard]] Features features(const StepContext& context) const;
     /// Throws InputError for what cannot be combined with a part of a driver's own.
     void refuseOwnConflicts(const Features& scene) const;
     void check(const StepContext& context) const;

@@ -141,13 +141,21 @@ const std::vector<WantedFigure>& allWantedFigures() {
     return all;
 }
 
-WantedFigure wantedFigure(std::string_view name) {
+std::string snakeNameOf(WantedFigure figure) {
+    std::string name(nameOf(figure));
+    std::ranges::replace(name, '-', '_');
+    return name;
+}
+
+WantedFigure wantedFigure(std::string_view name, std::string_view call, std::span<const WantedFigure> offered,
+                          char between) {
     for (const FigureRow& row : rows)
-        if (row.name == name) return row.figure;
-    std::vector<std::string_view> names;
-    for (const FigureRow& row : rows) names.push_back(row.name);
+        if (row.name == name || snakeNameOf(row.figure) == name) return row.figure;
+    std::vector<std::string> names;
+    for (const WantedFigure figure : offered)
+        names.push_back(between == '_' ? snakeNameOf(figure) : std::string(nameOf(figure)));
     throw InputError(
-        fmt::format("WantedFigure: no figure is called \"{}\"; there are {}.", name, fmt::join(names, ", ")));
+        fmt::format("{}: no figure is called \"{}\"; there are {}.", call, name, fmt::join(names, ", ")));
 }
 
 SoftnessQuestion softnessOf(Scene& scene, double pressure) {

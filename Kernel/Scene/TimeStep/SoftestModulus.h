@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,8 +25,13 @@ enum class WantedFigure {
 /// The figures by the names that programs take: "solid-fraction", "friction", ...
 [[nodiscard]] std::string_view nameOf(WantedFigure figure);
 [[nodiscard]] const std::vector<WantedFigure>& allWantedFigures();
-/// Throws InputError, with all names, where there is none of this name.
-[[nodiscard]] WantedFigure wantedFigure(std::string_view name);
+/// A figure by its name, with hyphens or underscores. Throws InputError where there is none of this name.
+/// @param call, offered, between  for the sentence: who wants it, the figures that it takes, and '-' or '_'
+[[nodiscard]] WantedFigure wantedFigure(std::string_view name, std::string_view call = "WantedFigure",
+                                        std::span<const WantedFigure> offered = allWantedFigures(),
+                                        char between = '-');
+/// The name with underscores, as in Python: "solid_fraction".
+[[nodiscard]] std::string snakeNameOf(WantedFigure figure);
 
 /// What of cohesion is to stay when grains are made softer: not all can.
 enum class KeptCohesion {
