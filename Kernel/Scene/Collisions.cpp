@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "Kernel/Core/Contacts/ContactStore.h"
 #include "Kernel/Core/Contacts/ContactSystem.h"
@@ -16,12 +17,15 @@
 #include "Kernel/Foundation/Base/InputError.h"
 #include "Kernel/Foundation/Base/Parallel.h"
 #include "Kernel/Foundation/Base/RunError.h"
+#include "Kernel/Foundation/Base/SharedQuestion.h"
 #include "Kernel/Laws/Concepts/Field.h"
 
 namespace pendular {
 namespace {
 
 constexpr std::string_view ownerInCollisions = "collision";  // of the numbers that are checked
+constexpr double fewestStepsInContact = 10;
+constexpr std::size_t stepsBetweenQuestions = 4096;  // some milliseconds
 constexpr double unknownInCollisions = std::numeric_limits<double>::quiet_NaN();
 
 void checkCollision(const Collision& given) {
@@ -34,8 +38,7 @@ void checkCollision(const Collision& given) {
     check("tangentialVelocity", given.tangentialVelocity, "m/s", anyFinite);
     check("spin1", given.spin1, "rad/s", anyFinite);
     check("spin2", given.spin2, "rad/s", anyFinite);
-    if (given.timeStep) check("timeStep", *given.timeStep, "s", positive);
-    check("stepsInContact", given.stepsInContact, "", {10, 1e6});
+    check("stepsInContact", given.stepsInContact, "", {fewestStepsInContact, 1e6});
 }
 
 /// The masses and moments of two bodies; those of a wall are infinite, and it does not move.
@@ -118,14 +121,32 @@ private:
     std::atomic<std::size_t> first = std::numeric_limits<std::size_t>::max();
 };
 
-/// In the thread that has begun the work.
-void askToGoOn(FirstFailure& failure) {
-    try {
-        askForInterruption();
-    } catch (...) {
-        failure.note(0);  // no other one begins
-        throw;
-    }
+/// The question of collideMany(), in threads that compute collisions for it: collide() asks it as well.
+thread_local SharedQuestion* questionOfMany = nullptr;
+
+/// While it lives, collisions of this thread are those of many.
+class AsOneOfMany {
+public:
+    explicit AsOneOfMany(SharedQuestion& question) : before(std::exchange(questionOfMany, &question)) {}
+    AsOneOfMany(const AsOneOfMany&) = delete;
+    AsOneOfMany& operator=(const AsOneOfMany&) = delete;
+    ~AsOneOfMany() { questionOfMany = before; }
+
+private:
+    SharedQuestion* before;
+};
+
+void askToGoOn() {
+    if (questionOfMany) questionOfMany->ask();
+    else askForInterruption();
+}
+
+/// s. Ten steps in the shortest contact are the fewest, also where the step is given.
+double stepOf(const Collision& collision, double halfPeriod) {
+    if (!collision.timeStep) return halfPeriod / collision.stepsInContact;
+    checkValue(ownerInCollisions, "timeStep", *collision.timeStep, "s",
+               positiveUpTo(halfPeriod / fewestStepsInContact));
+    return *collision.timeStep;
 }
 
 }  // namespace
@@ -138,8 +159,7 @@ CollisionOutcome collide(ContactLaws& laws, const Collision& collision) {
     const Bodies bodies{collision.radius1, collision.radius2};
     if (const auto objection = pair.objection(bodies)) throw InputError(*objection);
     CollisionOutcome seen{.contactTime = infinity};
-    seen.timeStep = collision.timeStep.value_or(halfPeriod(pair, bodies, masses.effectiveMass()) /
-                                                collision.stepsInContact);
+    seen.timeStep = stepOf(collision, halfPeriod(pair, bodies, masses.effectiveMass()));
     const double range = laws.ofPair(0, 0).formsAtContact ? 0 : pair.range(bodies);
     const double before = 2 * seen.timeStep * collision.normalVelocity;
     const double tangential = collision.tangentialVelocity;
@@ -149,15 +169,19 @@ CollisionOutcome collide(ContactLaws& laws, const Collision& collision) {
         seen.timeStep, integrators::predictedVelocityVerlet);
     if (collision.keepsEnergies) scene.keepEnergyLedger();
     CollisionObserver observer(scene);
-    seen.end = scene.finish([&] { observer.look(seen); });
+    seen.end = scene.finish([&] {
+        observer.look(seen);
+        if (seen.steps % stepsBetweenQuestions == 0) askToGoOn();
+    });
+    if (!seen.parted()) seen.ruptureDistance = 0;
     seen.duration = scene.getTime() - observer.firstTouch();
     const Vec3D relative = scene.relativeVelocity();
-    seen.partingVelocity = relative.x(), seen.tangentialVelocity = -relative.y();
+    seen.partingVelocity = relative.x(), seen.tangentialVelocity = 0 - relative.y();  // no -0
     seen.spin1 = scene.spinOf(0), seen.spin2 = scene.spinOf(1);
     seen.restitution = seen.parted() ? seen.partingVelocity / collision.normalVelocity : 0;
     const double slid = masses.sliding(tangential, collision.spin1, collision.spin2),
                  slides = masses.sliding(seen.tangentialVelocity, seen.spin1, seen.spin2);
-    seen.tangentialRestitution = seen.parted() && slid != 0 ? -slides / slid : unknownInCollisions;
+    seen.tangentialRestitution = seen.parted() && slid != 0 ? 0 - slides / slid : unknownInCollisions;
     seen.energyBefore = masses.energy(collision.normalVelocity, tangential, collision.spin1, collision.spin2);
     seen.energyLost = seen.energyBefore -
                       masses.energy(seen.partingVelocity, seen.tangentialVelocity, seen.spin1, seen.spin2);
@@ -168,8 +192,10 @@ CollisionOutcome collide(ContactLaws& laws, const Collision& collision) {
 std::vector<CollisionOutcome> collideMany(std::size_t count, int threads,
                                           const std::function<CollisionOutcome(std::size_t)>& one,
                                           const std::function<std::string(std::size_t)>& nameOf) {
+    checkValue("collideMany", "threads", threads, "", {1, 4096});
     std::vector<CollisionOutcome> outcomes(count);
     FirstFailure failure;
+    SharedQuestion question(&askForInterruption);
     const auto named = [&](std::size_t number, const std::exception& error) -> std::string {
         failure.note(number);
         std::string_view sentence = error.what();
@@ -187,15 +213,18 @@ std::vector<CollisionOutcome> collideMany(std::size_t count, int threads,
         }
     };
     constexpr std::size_t together = 8;  // less than a millisecond, which a thread may be late
-    inShares(
-        count, threads,
-        [&](int part, std::size_t begin, std::size_t end) {
-            for (std::size_t k = begin; k < end && failure.isBehind(k); ++k) {
-                compute(k);
-                if (part == 0) askToGoOn(failure);
-            }
-        },
-        together, shareOf(together));
+    question.during([&] {
+        inShares(
+            count, threads,
+            [&](int, std::size_t begin, std::size_t end) {
+                const AsOneOfMany oneOfMany(question);
+                for (std::size_t k = begin; k < end && failure.isBehind(k); ++k) {
+                    compute(k);
+                    question.ask();
+                }
+            },
+            together, shareOf(together));
+    });
     return outcomes;
 }
 

@@ -30,6 +30,14 @@ def test_snippet(code):
         assert scene.steps >= 5
 
 
+def test_heights_of_rebound():
+    """e^2 h, of the spheres that run_many() lets fall from h = 1 mm. The height is seen every 100 steps, and the wall yields."""
+    names = {}
+    code = next(part for part in re.findall(r"```python\n(.*?)```", PAGE, flags=re.S) if "run_many(" in part)
+    exec(compile(f"import pendular\n{code}", "the snippet", "exec"), names)
+    assert names["heights"] == pytest.approx([1e-3 * e**2 for e in (0.5, 0.7, 0.9)], rel=0.02)
+
+
 def test_same_questions_as_for_cpp():
     titles = set(re.findall(r"^### (.*)$", PAGE, flags=re.M))
     cpp = set(re.findall(r"^### (.*)$", (ROOT / "Kernel/HOW-DO-I.md").read_text(), flags=re.M))

@@ -108,7 +108,19 @@ REFUSED = {
     "shapes": (dict(radius=[1e-3, 1e-3], spin1=[1, 2, 3]),
                r"collisions\(\): these arrays cannot be broadcast against each other: radius \(2,\), spin1 \(3,\)\."),
     "text": (dict(radius="big"), r"collisions\(\): radius = 'big' must be numbers\."),
-    "threads": (dict(threads=0), r"collisions\(\): threads = 0 must be a whole number, at least 1, or None\."),
+    "threads": (dict(threads=0), r"collisions\(\): threads = 0 must be a whole number from 1 to 4096, or None\."),
+    "too many threads": (dict(threads=4097), r"collisions\(\): threads = 4097 must be a whole number from 1 to 4096, or None\."),
+    "a number as text": (dict(radius="0.001"), r"collisions\(\): radius = '0\.001' must be numbers\."),
+    "texts": (dict(spin1=["1", "2"]), r"collisions\(\): spin1 = \['1', '2'\] must be numbers\."),
+    "a mask": (dict(radius=np.ma.masked_array([1e-3, 2e-3], [False, True])), r"collisions\(\): radius has masked values; .*\."),
+    "misspelt": (dict(thread=3), r"collisions\(\) has no argument thread; did you mean threads\?"),
+    "misspelt with a line": (dict(spin_1=3), r"collisions\(\) has no argument spin_1; did you mean spin1\?"),
+    "a species by number": (dict(species=3), r"collisions\(\): species = 3 must be text\."),
+    "energies by text": (dict(energies="yes"), r"collisions\(\): energies = 'yes' must be True or False\."),
+    "no step": (dict(time_step=0.0), r"The collision: time_step = 0 s is out of range; .*\."),
+    "a long step": (dict(time_step=[1e-7, 2e-3]), r"Collision \[1\]: time_step = 0\.002 s is out of range; .*\."),
+    "not a step": (dict(time_step=np.nan), r"The collision: time_step = .*\."),
+    "no touch": (dict(normal_velocity=1e-6, tangential_velocity=[0.0, 100.0]), r"Collision \[1\]: the bodies pass each other .*\."),
     "too fast": (dict(normal_velocity=[0.1, 500.0]), r"Collision \[1\]: .*"),
     "steps": (dict(steps_in_contact=2), "The collision: steps_in_contact = 2 is out of range; .*"),
     "no species": (dict(species="Hertz"), ".*Hertz.*"),
@@ -125,10 +137,10 @@ def test_refusals(other, sentence, threads):
     with pytest.raises((pendular.InputError, pendular.RunError)) as caught:
         pendular.collisions(**given)
     assert re.fullmatch(sentence, str(caught.value)), str(caught.value)
-    assert str(caught.value).endswith(".") and "\n" not in str(caught.value)
+    assert str(caught.value).endswith((".", "?")) and "\n" not in str(caught.value)
 
 
-def test_the_example(tmp_path):
+def test_the_example(tmp_path, capsys):
     """Above the speeds at which the bridge holds the grains, the chart is the closed form. What the bridge adds to the overlap, and so to the
     dashpot's work, is left out there: by F(0) over the elastic force, 2 % at most at 0.5 m/s."""
     pytest.importorskip("matplotlib")
@@ -140,6 +152,9 @@ def test_the_example(tmp_path):
     expected = np.array([closed_form(speeds, volume) for volume in volumes])
     assert found["restitution"][0] == pytest.approx(expected[0], rel=1e-3)
     assert found["restitution"] == pytest.approx(expected, rel=0.02)
+    with pytest.raises(SystemExit):
+        main(["--output", str(tmp_path / "nofolder")])
+    assert "there is no folder" in capsys.readouterr().err
     main(["--output", str(tmp_path)])
     assert (tmp_path / "restitution.png").stat().st_size > 5000
 
@@ -173,11 +188,17 @@ def test_run_many_raises_what_fails():
             raise pendular.InputError("Two is refused.")
         return number
 
-    with pytest.raises(pendular.InputError, match="Two is refused"):
+    with pytest.raises(pendular.InputError, match="Two is refused") as caught:
         pendular.run_many(work, range(1000), threads=1)
+    if sys.version_info >= (3, 11):
+        assert caught.value.__notes__ == ["run_many(): this is of cases[2]."]
     assert begun == [0, 1, 2]
     with pytest.raises(pendular.InputError, match=r"run_many\(\): threads = 1\.5"):
         pendular.run_many(work, [1], threads=1.5)
+    with pytest.raises(pendular.InputError, match=r"run_many\(\): cases = 5 must be a list or another iterable\.$"):
+        pendular.run_many(work, 5)
+    with pytest.raises(pendular.InputError, match=r"run_many\(\): work = 5 must be a function of a case\.$"):
+        pendular.run_many(5, [1])
 
 
 LONG = """
@@ -186,6 +207,23 @@ print("begun", flush=True)
 try:
     if sys.argv[1] == "collisions":
         pendular.collisions("HertzianViscoelasticMindlin", radius=1e-3, normal_velocity=numpy.full(200000, 0.1), **conftest.GLASS)
+    elif sys.argv[1] == "long collisions":  # the second one on a thread of its own
+        pendular.collisions("HertzianViscoelasticMindlin", radius=1e-3, normal_velocity=numpy.full(64, 0.1), steps_in_contact=1e6,
+                            threads=2, **conftest.GLASS)
+    elif sys.argv[1] == "several runs":
+        def work(scene):
+            for _ in range(10000):
+                try:
+                    scene.run(10.0)
+                except pendular.RunStopped:
+                    pass
+                if stopped_twice(scene):
+                    raise RuntimeError("It was stopped again.")
+        stops = {}
+        def stopped_twice(scene):
+            stops[id(scene)] = stops.get(id(scene), 0) + 1
+            return stops[id(scene)] > 1
+        pendular.run_many(work, [conftest.tower(quiet=True) for _ in range(2)], threads=2)
     else:
         pendular.run_many(lambda scene: scene.run(1e6), [conftest.tower(quiet=True) for _ in range(3)])
 except KeyboardInterrupt:
@@ -193,7 +231,7 @@ except KeyboardInterrupt:
 """
 
 
-@pytest.mark.parametrize("what", ["collisions", "scenes"])
+@pytest.mark.parametrize("what", ["collisions", "long collisions", "scenes", "several runs"])
 def test_ctrl_c(what):
     """It ends the call within a collision, or after a step."""
     with subprocess.Popen([sys.executable, "-c", LONG, what], stdout=subprocess.PIPE, text=True,

@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "Kernel/Features/PopularSpecies.h"
+#include "Kernel/Foundation/Base/Host.h"
+#include "Kernel/Foundation/Base/RunError.h"
 #include "Kernel/Laws/Concepts/ElasticConstants.h"
 #include "SelfTests/Papers/IndependentWetCollision.h"
 #include "SelfTests/Species/Normal/IndependentCollisions.h"
@@ -108,6 +110,93 @@ TEST(Collisions, aSlidingSphereLosesWhatCoulombsLawTakes) {
     }
 }
 
+std::vector<CollisionOutcome> series(int threads, std::size_t count = 40) {
+    return collideMany(count, threads, [](std::size_t k) {
+        const double share = static_cast<double>(k);
+        return collide(linear(0.2 + 0.02 * share), {.radius1 = radius,
+                                                    .radius2 = k % 5 == 0 ? infinity : radius,
+                                                    .normalVelocity = 0.01 + 0.01 * share,
+                                                    .tangentialVelocity = 0.02 * share});
+    });
+}
+
+/// At grazing impacts grains turn about each other while they touch, and how far depends on where they touch
+/// first. They do so along x, whatever the steps: what is left is that a touch is noticed up to a step late,
+/// 1/200 of its time, in which they slide on.
+TEST(Collisions, grazingImpactsDoNotDependOnTheStart) {
+    for (const double ratio : {10.0, 30.0}) {
+        const auto at = [&](double steps) {
+            return collide(linear(0.8), {.radius1 = radius,
+                                         .radius2 = radius,
+                                         .normalVelocity = 0.1,
+                                         .tangentialVelocity = 0.1 * ratio,
+                                         .stepsInContact = steps});
+        };
+        const CollisionOutcome coarse = at(200), fine = at(5000);
+        ASSERT_TRUE(coarse.parted() && fine.parted());
+        EXPECT_NEAR(coarse.partingVelocity / fine.partingVelocity, 1, 0.01) << ratio;
+        EXPECT_NEAR(coarse.largestOverlap / fine.largestOverlap, 1, 0.01) << ratio;
+        EXPECT_NEAR(coarse.energyLost / fine.energyLost, 1, 0.01) << ratio;
+    }
+    // It ended as creeping, without a touch.
+    const CollisionOutcome grazing = collide(
+        linear(0.8), {.radius1 = radius, .radius2 = radius, .normalVelocity = 0.01, .tangentialVelocity = 3});
+    EXPECT_TRUE(grazing.parted());
+    EXPECT_GT(grazing.largestOverlap, 0);
+}
+
+/// The chord along which grains are in each other has the length 2 v_n (r1 + r2) / |v|: one that is passed
+/// within a step is missed.
+TEST(Collisions, grainsThatPassEachOtherAreRefused) {
+    const Collision given{
+        .radius1 = radius, .radius2 = radius, .normalVelocity = 1e-6, .tangentialVelocity = 100};
+    try {
+        (void)collide(linear(0.8), given);
+        FAIL() << "they have met";
+    } catch (const RunError& error) {
+        EXPECT_TRUE(isOneSentence(error.what()));
+        EXPECT_TRUE(contains(error.what(), "pass each other without a touch")) << error.what();
+    }
+}
+
+/// Ten steps in the shortest contact are the fewest, as those that are asked for.
+TEST(Collisions, stepsThatAreTooLongAreRefused) {
+    Collision given{.radius1 = radius, .radius2 = radius, .normalVelocity = 0.1, .stepsInContact = 10};
+    const double longest = collide(linear(0.5), given).timeStep;
+    given.timeStep = longest;
+    EXPECT_EQ(collide(linear(0.5), given).timeStep, longest);
+    for (const double step : {1.001 * longest, 2e-4, 0.0, -1e-6, std::nan("")}) {
+        given.timeStep = step;
+        const std::string sentence = refusal([&] { (void)collide(linear(0.5), given); });
+        EXPECT_TRUE(isOneSentence(sentence));
+        EXPECT_TRUE(contains(sentence, "timeStep")) << sentence;
+    }
+}
+
+/// A question that throws ends a collision, and those of all threads.
+TEST(Collisions, anInterruptionEndsThemWithinACollision) {
+    struct Interrupted {};
+    struct Asked {
+        Asked() {
+            setInterruption([] { throw Interrupted{}; });
+        }
+        ~Asked() { setInterruption({}); }
+    } const asked;
+    const Collision slow{.radius1 = radius, .radius2 = radius, .normalVelocity = 0.1, .stepsInContact = 1e6};
+    EXPECT_THROW((void)collide(linear(0.5), slow), Interrupted);
+    for (const int threads : {1, 3})
+        EXPECT_THROW((void)collideMany(100, threads, [&](std::size_t) { return collide(linear(0.5), slow); }),
+                     Interrupted);
+}
+
+TEST(Collisions, threadsAreInTheirRange) {
+    for (const int threads : {0, -3, 4097}) {
+        const std::string sentence = refusal([&] { (void)series(threads, 0); });
+        EXPECT_TRUE(isOneSentence(sentence));
+        EXPECT_TRUE(contains(sentence, "threads")) << sentence;
+    }
+}
+
 /// Momentum and angular momentum of two grains stay, and what the ledger finds is what the motion loses.
 TEST(Collisions, whatTheMotionLosesIsInTheLedger) {
     for (const double radius2 : {0.5e-3, 2e-3, infinity}) {
@@ -157,6 +246,7 @@ TEST(Collisions, aBridgeTakesTheWorkOfItsRupture) {
         EXPECT_EQ(seen.end, ruptures ? CollisionEnd::Parted : CollisionEnd::DrawnBack);
         if (!ruptures) {
             EXPECT_EQ(seen.restitution, 0);
+            EXPECT_EQ(seen.ruptureDistance, 0);  // also where the gap was past a step
             continue;
         }
         EXPECT_LE(seen.ruptureDistance, paper::ruptureDistance * (1 + 1e-9));
@@ -167,16 +257,6 @@ TEST(Collisions, aBridgeTakesTheWorkOfItsRupture) {
         EXPECT_NEAR(seen.energyLost, lost, 3e-4 * seen.energyBefore + 0.5 * paper::contactForce * way);
         EXPECT_NEAR(seen.duration, expected.farthestTime, 4e-3 * expected.farthestTime);
     }
-}
-
-std::vector<CollisionOutcome> series(int threads, std::size_t count = 40) {
-    return collideMany(count, threads, [](std::size_t k) {
-        const double share = static_cast<double>(k);
-        return collide(linear(0.2 + 0.02 * share), {.radius1 = radius,
-                                                    .radius2 = k % 5 == 0 ? infinity : radius,
-                                                    .normalVelocity = 0.01 + 0.01 * share,
-                                                    .tangentialVelocity = 0.02 * share});
-    });
 }
 
 TEST(Collisions, doNotDependOnThreads) {

@@ -22,6 +22,7 @@ public:
             arrays.emplace(py::str(name), py::reinterpret_borrow<py::object>(numbers).cast<Doubles>());
         for (const auto& [name, numbers] : arrays) columns.emplace(name, numbers.data());
     }
+    [[nodiscard]] bool has(std::string_view name) const { return columns.contains(name); }
     /// What is not given stays as it is.
     void take(std::string_view name, std::size_t collision, double& value) const {
         if (const auto found = columns.find(name); found != columns.end()) value = found->second[collision];
@@ -50,9 +51,7 @@ Collision collisionOf(const NumbersOfCollisions& numbers, std::size_t k, bool ke
     numbers.take("spin1", k, made.spin1);
     numbers.take("spin2", k, made.spin2);
     numbers.take("steps_in_contact", k, made.stepsInContact);
-    double step = 0;
-    numbers.take("time_step", k, step);
-    if (step != 0) made.timeStep = step;
+    if (numbers.has("time_step")) numbers.take("time_step", k, made.timeStep.emplace());
     return made;
 }
 
@@ -155,7 +154,7 @@ py::dict collisions(const std::string& species, const py::dict& numbers, const p
     for (const py::ssize_t length : shape) count *= static_cast<std::size_t>(length);
     const std::vector<CollisionOutcome> outcomes = withoutPython([&] {
         return collideMany(
-            count, threads > 0 ? threads : processorCount(),
+            count, threads,
             [&](std::size_t k) { return materials.collide(collisionOf(given, k, keepsEnergies), k); },
             [&](std::size_t k) { return nameOf(k, shape); });
     });

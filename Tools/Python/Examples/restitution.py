@@ -49,6 +49,8 @@ def main(arguments=None):
     options = argparse.ArgumentParser(description="Restitution over the speed of an impact, dry and wet.")
     options.add_argument("--output", type=Path, default=Path("."), help="folder of the figure")
     folder = options.parse_args(arguments).output
+    if not folder.is_dir():
+        options.error(f"--output: there is no folder {folder}.")
     speeds, volumes = np.geomspace(0.02, 2, 100), [0, 1e-12, 1e-11, 5e-11]
     found = chart(speeds, volumes)
     for volume, restitution, parted in zip(volumes, found["restitution"], found["parted"]):

@@ -52,7 +52,7 @@ _KINDS: Dict[str, Tuple[Callable[[Any], bool], str]] = {
 }
 _PARTS = {"List": "a list", "Sequence": "a list", "Dict": "a dict", "Tuple": "a tuple"}
 # Names of functions that methods of the package call.
-_CALLED_BY = {"_run_to": "run", "_run_steps": "run"}
+_CALLED_BY = {"_run_to": "run", "_run_steps": "run", "_collisions": "collisions"}
 _NO_MEMORY = "There is not enough memory."  # of ExplainArguments.h
 _UNIT = r"(?:1|s|m|kg|N|K|Pa|J|W|rad)(?:\^\d)?"
 
