@@ -157,6 +157,8 @@ private:
     [[nodiscard]] ContactLaws& laws() const { return *context.laws; }
     [[nodiscard]] Features featuresOfScene() const;
     void refuseUnlessBridgesJoin() const;
+    /// Throws InputError where setStepFor() of a bulk quantity came before what makes its step too long.
+    void refuseStepOfOtherScene() const;
     void warnOfEnergyGainOfSprings() const;
     void warnOfSeams() const;
 

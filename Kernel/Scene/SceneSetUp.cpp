@@ -200,6 +200,7 @@ void Scene::Inside::check() {
 
 void Scene::Inside::prepare() {
     check();
+    if (!scene.isRestarted()) refuseStepOfOtherScene();
     static_cast<void>(ParticleHandler::Inside::takeChanges(scene.particleHandler));
     ParticleHandler::Inside::closeColumns(scene.particleHandler);
     lawsAreNew = false;
@@ -233,6 +234,17 @@ void Scene::Inside::warn() const {
     warnOfSlips(logger, laws(), checkedSizes, scene.wallHandler);
     warnOfEnergyGainOfSprings();
     if (!scene.isQuiet()) warnOfSeams();  // which may take a while
+}
+
+void Scene::Inside::refuseStepOfOtherScene() const {
+    const auto before = scene.getStepForFigure();
+    if (!before || !before->isKnown()) return;
+    const StepForFigure now = findStepForFigure(scene, featuresNow(), before->figure, before->asked);
+    if (stepLength() <= std::max(now.limit, (1 + 1e-9) * now.step)) return;
+    throw InputError(fmt::format(
+        "Simulation: the time step of {:.4g} s for {} was chosen before all of the scene was there, which "
+        "stands {:.4g} s{}; call setStepFor() last.",
+        stepLength(), nameOf(before->figure), now.step, now.isKnown() ? "" : ", because " + now.unknown));
 }
 
 void Scene::Inside::warnOfEnergyGainOfSprings() const {
