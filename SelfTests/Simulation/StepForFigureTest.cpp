@@ -263,7 +263,7 @@ TEST(StepForFigure, warnsOfWhatComesLater) {
                                        [&](const std::string& one) { return contains(one, part); });
         };
         EXPECT_EQ(warns("before all of the scene was there: a ratio of radii"), isMixture);
-        if (!isMixture) EXPECT_FALSE(warns("too weak dashpots"));
+        EXPECT_TRUE(isMixture || !warns("too weak dashpots"));
     }
 }
 
