@@ -26,7 +26,9 @@ enum class WantedFigure {
 [[nodiscard]] std::string_view nameOf(WantedFigure figure);
 [[nodiscard]] const std::vector<WantedFigure>& allWantedFigures();
 /// A figure by its name, with hyphens or underscores. Throws InputError where there is none of this name.
-/// @param call, offered, between  for the sentence: who wants it, the figures that it takes, and '-' or '_'
+/// @param call that wants it, for the sentence
+/// @param offered the figures that it takes, for the sentence
+/// @param between words of their names in the sentence, '-' or '_'
 [[nodiscard]] WantedFigure wantedFigure(std::string_view name, std::string_view call = "WantedFigure",
                                         std::span<const WantedFigure> offered = allWantedFigures(),
                                         char between = '-');
