@@ -59,7 +59,7 @@ public:
     /// Whether the list has all bodies that are not farther apart than this (m). It looks at all grains where
     /// rest() is less.
     [[nodiscard]] bool reaches(double gap, const ParticleStore& grains, int threads = 1) {
-        return gap <= rest() || (look(grains, threads) && gap <= rest());
+        return gap <= rest() || (gap <= skin && look(grains, threads) && gap <= rest());
     }
     /// m, with which contacts were listed.
     [[nodiscard]] double width() const { return skin; }

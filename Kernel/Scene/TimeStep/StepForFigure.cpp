@@ -77,7 +77,7 @@ Domain domainOf(Scene& scene) {
     return found;
 }
 
-const MeasuredFigure& rowOf(WantedFigure figure) {
+const MeasuredFigure& measuredRowOf(WantedFigure figure) {
     const auto* const row = std::ranges::find(measured, figure, &MeasuredFigure::figure);
     if (row == measured.end())
         throw InputError(
@@ -91,7 +91,7 @@ const MeasuredFigure& rowOf(WantedFigure figure) {
 
 StepForFigure findStepForFigure(Scene& scene, WantedFigure figure, double error) {
     checkValue("setStepFor", "error", error, "", {1e-3, 0.2});
-    const MeasuredFigure& row = rowOf(figure);
+    const MeasuredFigure& row = measuredRowOf(figure);
     scene.laws().mixAll();
     const double advised = chosenTimeStep(scene);  // throws where nothing can meet
     StepForFigure found{.figure = figure, .step = advised, .asked = error, .limit = scene.stabilityLimit()};
