@@ -1,14 +1,11 @@
 #include "Kernel/Scene/CollisionScene.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "Kernel/Core/Motion/StabilityLimit.h"
 #include "Kernel/Core/Walls/InfiniteWall.h"
-#include "Kernel/Foundation/Base/RunError.h"
 
 namespace pendular {
 namespace {
@@ -59,8 +56,7 @@ void CollisionScene::addGrain(std::size_t species, double radius, double side, d
     grain.setSpecies(&shared);
     grain.setRadius(radius);
     const double gap = meeting.isAtWall() ? approach.gap : 0.5 * approach.gap;
-    const double untilTouch = approach.gap / approach.normal;  // s, in free flight
-    grain.setPosition({side * (radius + gap), side * share * approach.slip * untilTouch, 0});
+    grain.setPosition({side * (radius + gap), side * share * approach.offset, 0});
     grain.setVelocity({-side * share * approach.normal, -side * share * approach.slip, 0});
     grain.setAngularVelocity({0, 0, side < 0 ? approach.spin1 : approach.spin2});
     particleHandler.copyAndAddObject(grain);
@@ -76,14 +72,7 @@ std::optional<CollisionEnd> CollisionScene::look() {
         if (leaves && parting < 0) return CollisionEnd::DrawnBack;
         leaves = parting > 0;
     }
-    const bool isFree = !touches && !(contactForceOn(0).squaredNorm() > 0);
-    if (isFree && begin) return CollisionEnd::Parted;
-    if (isFree && parting > 0)
-        throw RunError(
-            fmt::format("collision: the bodies pass each other without a touch at a normal velocity of "
-                        "{:.4g} m/s and a tangential "
-                        "one of {:.4g} m/s; give a shorter time step, or a larger normal velocity.",
-                        approach.normal, approach.slip));
+    if (begin && !touches && !(contactForceOn(0).squaredNorm() > 0)) return CollisionEnd::Parted;
     if (isStuck) return CollisionEnd::Creeps;
     return {};
 }

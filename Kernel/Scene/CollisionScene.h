@@ -27,6 +27,7 @@ struct CollisionApproach {
     double normal, slip;          // m/s
     double gap;                   // m
     double spin1 = 0, spin2 = 0;  // rad/s
+    double offset = 0;            // m, of body 2 from body 1 along y at the start
 };
 
 /// How a collision ends.
@@ -36,9 +37,8 @@ enum class CollisionEnd {
     Creeps      // they neither part nor are drawn back in a bounded time: overdamped, or they sinter
 };
 
-/// A scene of a collision: body 1 comes along x, the slip is along y, and spins are about z. Bodies begin
-/// with an offset along y, so that they touch along x if nothing acts before. It shares the laws of another
-/// scene, or of none.
+/// A scene of a collision: body 1 comes along x, body 2 is in front of it, the slip is along y, and spins are
+/// about z. It shares the laws of another scene, or of none.
 class CollisionScene : public Scene {
 public:
     CollisionScene(ContactLaws& of, const CollidingBodies& pair, const CollisionApproach& given, double step,
@@ -47,7 +47,7 @@ public:
 
     /// Until the bodies have parted, and no bridge or neck holds them, or are drawn back to each other: they
     /// have less energy than parting takes then, as nothing gives them any. Overdamped bodies, and those that
-    /// sinter, do neither: see creeps(). Throws RunError where they pass each other without a touch.
+    /// sinter, do neither: see creeps().
     /// @param afterStep is called after each step
     template <class AfterStep>
     CollisionEnd finish(const AfterStep& afterStep) {

@@ -88,6 +88,7 @@ public:
         seen.largestTangentialForce = std::max(seen.largestTangentialForce, tangentialForce);
         if (begin && last[2] >= 0 && normalForce < 0) seen.ruptureDistance = last[2];
     }
+    [[nodiscard]] bool hasTouched() const { return begin.has_value(); }
     /// s, when the first touch began.
     [[nodiscard]] double firstTouch() const { return begin.value_or(scene.getTime()); }
 
@@ -163,9 +164,11 @@ CollisionOutcome collide(ContactLaws& laws, const Collision& collision) {
     const double range = laws.ofPair(0, 0).formsAtContact ? 0 : pair.range(bodies);
     const double before = 2 * seen.timeStep * collision.normalVelocity;
     const double tangential = collision.tangentialVelocity;
+    // They touch along x, in free flight.
+    const double offset = masses.isAtWall() ? 0 : tangential * (range + before) / collision.normalVelocity;
     CollisionScene scene(
         laws, {0, 0, bodies, touchTime(pair, bodies, masses.effectiveMass())},
-        {collision.normalVelocity, tangential, range + before, collision.spin1, collision.spin2},
+        {collision.normalVelocity, tangential, range + before, collision.spin1, collision.spin2, offset},
         seen.timeStep, integrators::predictedVelocityVerlet);
     if (collision.keepsEnergies) scene.keepEnergyLedger();
     CollisionObserver observer(scene);
@@ -173,6 +176,11 @@ CollisionOutcome collide(ContactLaws& laws, const Collision& collision) {
         observer.look(seen);
         if (seen.steps % stepsBetweenQuestions == 0) askToGoOn();
     });
+    if (!observer.hasTouched() && scene.relativeVelocity().dot(scene.normal()) > 0)
+        throw RunError(fmt::format(
+            "{}: the bodies pass each other without a touch at a normal velocity of {:.4g} m/s and a "
+            "tangential one of {:.4g} m/s; give a shorter time step, or a larger normal velocity.",
+            ownerInCollisions, collision.normalVelocity, tangential));
     if (!seen.parted()) seen.ruptureDistance = 0;
     seen.duration = scene.getTime() - observer.firstTouch();
     const Vec3D relative = scene.relativeVelocity();
