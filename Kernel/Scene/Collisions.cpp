@@ -227,8 +227,8 @@ std::vector<CollisionOutcome> collideMany(std::size_t count, int threads,
             [&](int, std::size_t begin, std::size_t end) {
                 const AsOneOfMany oneOfMany(question);
                 for (std::size_t k = begin; k < end && failure.isBehind(k); ++k) {
+                    question.ask();  // first: shares that are left are taken, too
                     compute(k);
-                    question.ask();
                 }
             },
             together, shareOf(together));

@@ -110,10 +110,9 @@ def _refuse_misspelt(species: str, fields: Dict[str, Any]) -> None:
     import inspect
 
     own = [name for name, one in inspect.signature(collisions).parameters.items() if one.kind is not one.VAR_KEYWORD]
-    known = {row[1] for row in _kernel.fields(species)}
     for name in fields:
         near = difflib.get_close_matches(name, own, 1, 0.75)
-        if near and name not in known:
+        if near and name not in [row[1] for row in _kernel.fields(species)]:
             raise _kernel.InputError(f"collisions() has no argument {name}; did you mean {near[0]}?") from None
 
 
@@ -122,7 +121,7 @@ def _broadcast(numbers: Dict[str, Any]) -> Dict[str, np.ndarray]:
     arrays = {}
     for name, given in numbers.items():
         try:
-            array = np.asarray(given)
+            array: np.ndarray = np.asarray(given)
         except (TypeError, ValueError) as problem:
             raise _kernel.InputError(_no_numbers(name, given)) from problem
         if array.dtype.kind not in "biuf":
