@@ -38,6 +38,10 @@ void checkCollision(const Collision& given) {
     check("tangentialVelocity", given.tangentialVelocity, "m/s", anyFinite);
     check("spin1", given.spin1, "rad/s", anyFinite);
     check("spin2", given.spin2, "rad/s", anyFinite);
+    if (given.radius2 == infinity && given.spin2 != 0)
+        throw InputError(
+            fmt::format("{}: spin2 = {:g} rad/s must be 0: body 2 is a wall, which does not turn.",
+                        ownerInCollisions, given.spin2));
     check("stepsInContact", given.stepsInContact, "", {fewestStepsInContact, 1e6});
 }
 

@@ -62,7 +62,8 @@ struct CollisionOutcome {
 /// are drawn back, or where they creep: CollisionScene says when. Films of liquid that moves are not there.
 /// The times of the touch are found between steps, and the largest overlap is that of the parabola through
 /// three of them. Throws InputError for numbers that are out of their range, and RunError where overlaps get
-/// too large or grains pass each other without a touch. askForInterruption() is called now and then.
+/// too large or grains pass each other without a touch. askForInterruption() is called now and then. The laws
+/// are prepared in it: several threads need laws of their own.
 [[nodiscard]] CollisionOutcome collide(ContactLaws& laws, const Collision& collision);
 
 /// Computes a collision of bodies of a material.

@@ -293,6 +293,7 @@ TEST(Collisions, refuseWrongNumbersByTheirPlace) {
         for (const std::string& other : {refused([](Collision& c) { c.radius1 = 0; }, 3),
                                          refused([](Collision& c) { c.radius2 = -infinity; }, 3),
                                          refused([](Collision& c) { c.spin2 = std::nan(""); }, 3),
+                                         refused([](Collision& c) { c.radius2 = infinity, c.spin2 = 5; }, 3),
                                          refused([](Collision& c) { c.stepsInContact = 1; }, 3),
                                          refused([](Collision& c) { c.timeStep = 0; }, 3)}) {
             EXPECT_TRUE(isOneSentence(other));
