@@ -159,7 +159,7 @@ def test_the_softest_modulus():
     assert advice["bounds"][0][0] == advice["young_modulus_Pa"] and "solid-fraction" in advice["text"]
     scene = tower()
     scene.softest_modulus(["friction"], young_modulus=6e10, pressure=1000)
-    with pytest.raises(pendular.InputError, match="solid-fraction"):
+    with pytest.raises(pendular.InputError, match="solid_fraction"):
         scene.softest_modulus(["warmth"], young_modulus=6e10)
 
 
